@@ -1,0 +1,162 @@
+// A scene as plain data: what io/read_scene fills in, after every check that needs no mesh. SI units throughout.
+#pragma once
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "kernels/traits.hpp"
+
+namespace nanson {
+
+using Vec3 = std::array<double, 3>;
+
+enum class MeshSource { box, file };
+enum class Split { alternating, kuhn };
+enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave };
+enum class InitialJ { linear, det };               // J(0) = 1 + tr(F - I) | det F
+enum class BoundaryKind { fixed, free, symmetric, skew_symmetric, traction, pressure, velocity };
+enum class TimeKind { constant, ramp, sine, pulse, logistic, table };
+enum class Integrator { tvd_rk2, ssp_rk3 };
+enum class StepRule { dual, edge, paper };
+enum class EnergyGrowth { warn, stop };
+
+constexpr auto words(MeshSource) { return std::array<std::string_view, 2>{"box", "file"}; }
+constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
+constexpr auto words(InitialField) { return std::array<std::string_view, 7>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave"}; }
+constexpr auto words(InitialJ) { return std::array<std::string_view, 2>{"linear", "det"}; }
+constexpr auto words(BoundaryKind) { return std::array<std::string_view, 7>{"fixed", "free", "symmetric", "skew_symmetric", "traction", "pressure", "velocity"}; }
+constexpr auto words(TimeKind) { return std::array<std::string_view, 6>{"constant", "ramp", "sine", "pulse", "logistic", "table"}; }
+constexpr auto words(Integrator) { return std::array<std::string_view, 2>{"tvd_rk2", "ssp_rk3"}; }
+constexpr auto words(StepRule) { return std::array<std::string_view, 3>{"dual", "edge", "paper"}; }
+constexpr auto words(EnergyGrowth) { return std::array<std::string_view, 2>{"warn", "stop"}; }
+
+/// A name that can only be checked against the mesh, with the place in the scene file that says it ("file:line:column").
+struct Named {
+  std::string name;
+  std::string where;
+};
+
+struct MeshSpec {
+  MeshSource source = MeshSource::box;
+  Vec3 origin{};                                   // [m] box
+  Vec3 size{};                                     // [m] box
+  std::array<int, 3> cells{1, 1, 1};               // box
+  Split split = Split::alternating;                // box
+  double perturb = 0;                              // share of a cell by which inner nodes are moved, fixed seed; box
+  Named file;                                      // file: path as resolved against the scene's folder
+};
+
+struct MaterialSpec {
+  Law law = Law::neo_hookean;
+  double density = 0;                              // [kg/m^3]
+  double youngs_modulus = 0;                       // [Pa]
+  double poissons_ratio = 0;                       // [-]
+  double xi = 0;                                   // [Pa] mooney_rivlin: 2 zeta + 3 sqrt(3) xi = mu
+  Volumetric volumetric = Volumetric::quadratic;
+  Isochoric isochoric = Isochoric::F;
+};
+
+struct PhysicsSpec {
+  Formulation formulation = Formulation::pFJ;
+  PressureJump pressure_jump = PressureJump::scalar;
+  Reconstruction reconstruction = Reconstruction::linear;
+  FluxCorrection flux_correction = FluxCorrection::none;
+  BoundaryFlux boundary_flux = BoundaryFlux::adjoint;
+  UpwindMetric upwind_metric = UpwindMetric::deformed;
+};
+
+struct InitialSpec {
+  InitialField field = InitialField::rest;
+  InitialJ J = InitialJ::linear;                   // standing_wave, plane_wave
+  Vec3 v{};                                        // [m/s] velocity
+  Vec3 omega{};                                    // [rad/s] rotation
+  std::optional<Vec3> centre;                      // [m] rotation; none: the centre of mass ("mass")
+  double twist_omega = 0;                          // [rad/s] twist: omega = (0, 0, twist_omega sin(pi Z / (2 height)))
+  double height = 0;                               // [m] twist
+  double amplitude = 0;                            // [m] plate_mode, standing_wave, plane_wave
+  double mode_omega = 0;                           // [1/s] plate_mode
+  double B = 0;                                    // [1/m] plate_mode
+  double length = 0;                               // [m] plane_wave: half width of the pulse
+  Vec3 direction{1, 0, 0};                         // [-] plane_wave: unit vector of travel
+};
+
+/// A factor in time, 1 where nothing is said.
+struct TimeFunction {
+  TimeKind kind = TimeKind::constant;
+  double until = 0;                                // [s] ramp, pulse, logistic
+  double from = 0;                                 // [s] pulse
+  double frequency = 0, phase = 0;                 // [1/s], [rad] sine
+  double rate = 0, centre = 0;                     // [1/s], [s] logistic: 4 g/(1+g)^2, g = exp(rate (centre - t)); 0 after until
+  std::vector<std::pair<double, double>> points;   // [s], [-] table, strictly growing times
+};
+
+struct BoundarySpec {
+  std::vector<Named> faces;
+  BoundaryKind kind = BoundaryKind::free;
+  Vec3 traction{};                                 // [Pa] per undeformed area, dead
+  double pressure = 0;                             // [Pa] pushes in, follows the current face
+  Vec3 velocity{};                                 // [m/s]
+  std::array<bool, 3> held{true, true, true};      // velocity: components that are prescribed ("free" leaves one)
+  TimeFunction time;
+};
+
+struct TimeSpec {
+  double end = 0;                                  // [s]
+  double cfl = 0.3;                                // [-]
+  Integrator integrator = Integrator::tvd_rk2;
+  StepRule step = StepRule::dual;
+  double dt_max = 0;                               // [s] 0: no limit
+  double dt_collapse = 1e-4;                       // stop when dt falls below this share of the first dt
+  long max_steps = 0;                              // 0: no limit
+  double max_wall_s = 0;                           // [s] 0: no limit
+};
+
+struct ProbeSpec {
+  std::string name;
+  Vec3 at{};                                       // [m] reference position
+  std::string where;
+  std::vector<std::string> fields;
+};
+
+struct OutputSpec {
+  double every = 0;                                // [s] 0: first and last frame only
+  long history_every = 1;                          // [steps]
+  std::vector<std::string> fields{"displacement", "velocity", "pressure"};
+  int compress = 0;                                // gzip level
+  std::vector<ProbeSpec> probes;
+};
+
+struct MonitorSpec {
+  bool energy = false;
+  EnergyGrowth energy_growth = EnergyGrowth::warn;
+  double energy_tolerance = 0.01;                  // share of the initial energy
+};
+
+struct Scene {
+  std::string name;
+  std::filesystem::path file;
+  std::string text;                                // the file verbatim with the --set lines appended as comments, kept in the results
+  MeshSpec mesh;
+  MaterialSpec material;
+  PhysicsSpec physics;
+  InitialSpec initial;
+  std::vector<BoundarySpec> boundary;
+  Vec3 body_force{};                               // [m/s^2]
+  TimeSpec time;
+  OutputSpec output;
+  MonitorSpec monitor;
+};
+
+/// Output field names with their number of components, in the one table that reader, writer and solver share.
+struct FieldName {
+  std::string_view name;
+  int components;
+  std::string_view unit;
+};
+inline constexpr std::array<FieldName, 10> field_names{{{"x", 3, "m"}, {"displacement", 3, "m"}, {"velocity", 3, "m/s"}, {"pressure", 1, "Pa"}, {"P", 9, "Pa"},
+                                                       {"F", 9, "-"}, {"H", 9, "-"}, {"J", 1, "-"}, {"det_F", 1, "-"}, {"von_mises", 1, "Pa"}}};
+
+}  // namespace nanson

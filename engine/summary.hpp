@@ -1,0 +1,43 @@
+// Everything that summary.json holds, as plain data; an empty optional is written as null.
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace nanson {
+
+struct EnergySummary {
+  double initial = 0, kinetic = 0, strain = 0;                    // [J]
+  std::optional<double> external_work, dissipated, closure;       // [J], [J], [-]: only with monitor.energy
+  std::optional<double> lost_at_start;                            // [J] kinetic energy that the constraints removed from v(0)
+};
+
+struct SweepTime {
+  std::string sweep;
+  double seconds = 0;
+};
+
+struct Summary {
+  std::string status = "done";                                    // done | breakdown | stopped
+  std::string reason;                                             // why it did not end as asked; empty when done
+  std::string scene, formulation, material, description = "total", stabilisation = "upwind", reconstruction, flux_correction;
+  std::string boundary_flux, upwind_metric, pressure_jump, integrator, step, split;
+  long nodes = 0, tets = 0, edges = 0, steps = 0;
+  double t_end = 0, dt_min = 0, dt_max = 0;                       // [s]
+  int threads = 1;
+  double wall_s = 0, cpu_s = 0, setup_s = 0;                      // [s] time loop only; set-up apart
+  double ns_per_node_step = 0;
+  double bytes_per_node = 0;
+  std::vector<std::string> fields_left_out;
+  std::string state_hash;
+  EnergySummary energy;
+  double mass = 0, volume = 0;                                    // [kg], [m^3]
+  double angular_momentum_drift = 0, linear_momentum_drift = 0;   // [-]
+  double min_detF = 0, max_detF = 0;
+  std::map<std::string, double> errors;                           // empty without an exact solution
+  std::map<std::string, std::map<std::string, std::vector<double>>> probes;   // last values
+  std::vector<SweepTime> sweeps;
+};
+
+}  // namespace nanson

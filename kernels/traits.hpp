@@ -1,0 +1,32 @@
+// The choices a scene makes that change arithmetic inside a loop. Each enumerator is spelt like its TOML word; `words` lists them in order.
+#pragma once
+#include <array>
+#include <string_view>
+
+namespace nanson {
+
+enum class Law { linear_elastic, neo_hookean, mooney_rivlin };
+enum class Volumetric { quadratic, barrier };      // U = kappa/2 (J-1)^2 (paper, eq. 14) | kappa/2 [(J^2-1)/2 - ln J]
+enum class Isochoric { F, J };                     // isochoric energy with det F | with the evolved J, as the paper writes it
+enum class Formulation { pF, pFJ, pFHJ };          // what is carried besides {p, F}
+enum class PressureJump { scalar, tensor };        // jump of Sigma_J (paper, Remark 4) | of P N (paper, eq. 36b)
+enum class Reconstruction { constant, linear };
+enum class FluxCorrection { none, pressure, full };
+enum class BoundaryFlux { adjoint, paper };
+enum class UpwindMetric { deformed, paper };       // c_p max(1, |H N|) | c_p
+
+constexpr auto words(Law) { return std::array<std::string_view, 3>{"linear_elastic", "neo_hookean", "mooney_rivlin"}; }
+constexpr auto words(Volumetric) { return std::array<std::string_view, 2>{"quadratic", "barrier"}; }
+constexpr auto words(Isochoric) { return std::array<std::string_view, 2>{"F", "J"}; }
+constexpr auto words(Formulation) { return std::array<std::string_view, 3>{"pF", "pFJ", "pFHJ"}; }
+constexpr auto words(PressureJump) { return std::array<std::string_view, 2>{"scalar", "tensor"}; }
+constexpr auto words(Reconstruction) { return std::array<std::string_view, 2>{"constant", "linear"}; }
+constexpr auto words(FluxCorrection) { return std::array<std::string_view, 3>{"none", "pressure", "full"}; }
+constexpr auto words(BoundaryFlux) { return std::array<std::string_view, 2>{"adjoint", "paper"}; }
+constexpr auto words(UpwindMetric) { return std::array<std::string_view, 2>{"deformed", "paper"}; }
+
+/// The TOML word of a choice.
+template <class Choice>
+constexpr std::string_view word(Choice c) { return words(c)[static_cast<std::size_t>(c)]; }
+
+}  // namespace nanson
