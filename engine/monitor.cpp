@@ -137,6 +137,16 @@ void book_step(Simulation& s) {
   for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * s.ledger.mass * s.scene->body_force[k];
 }
 
+Vec3 reaction(const Simulation& s, int face) {
+  Vec3 sum{};
+  for (std::size_t i = 0; i < s.boundary.constraints.size(); ++i) {
+    const Constraint& h = s.boundary.constraints[i];
+    for (int m = 0; m < h.count; ++m)
+      for (int k = 0; k < 3 && h.face[m] == face; ++k) sum[k] += s.state.reactions[reaction_row * i + static_cast<std::size_t>(m)] * h.d[m][k];
+  }
+  return sum;
+}
+
 std::vector<int> tets_around(const Mesh& mesh, int node) {
   std::vector<int> tets;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)

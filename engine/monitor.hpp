@@ -30,6 +30,9 @@ double linear_momentum_drift(Simulation& s);
 /// |L - L(0)| / sum Omega |x| |p|; nothing when supports or loads exert a torque.
 std::optional<double> angular_momentum_drift(Simulation& s);
 
+/// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
+Vec3 reaction(const Simulation& s, int face);
+
 /// One stage's share of dissipation and external work, from the rows of the stage before its update.
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
 /// Impulse and work of supports and body force over the step.
