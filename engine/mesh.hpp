@@ -32,16 +32,20 @@ struct Mesh {
   std::vector<std::array<int, 4>> tets;
   std::vector<int> tet_region;
   std::vector<std::string> region_names;
-  std::vector<Face> faces;
-  std::vector<std::string> patch_names;
+  std::vector<Face> faces;                         // sorted by their nodes
+  std::vector<std::string> patch_names;            // those that have a boundary face, in the order of the raw mesh
   int reoriented = 0;                              // tets whose nodes were swapped to make their volume positive
   int unnamed_faces = 0;                           // boundary triangles of no patch: traction free
 };
 
+/// Corners of the face opposite each node of a right-handed tet, counter-clockwise from outside.
+inline constexpr std::array<std::array<int, 3>, 4> tet_faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
+
 /// Six tets a cell; faces xmin xmax ymin ymax zmin zmax, one region "box".
 RawMesh make_box(const MeshSpec& spec);
 
-/// Orients, finds the boundary and checks. Errors (named by index, each at most a few times) are appended; the mesh is valid when none was.
+/// Orients, finds the boundary and checks. Errors (named by index from 0, each kind at most five times) are appended; the mesh is
+/// valid when none was. Named triangles between two tets are dropped: gmsh names interfaces of regions too.
 Mesh finish_mesh(RawMesh raw, std::vector<std::string>& errors);
 
 /// Volume of a tet, positive when right-handed. [m^3]

@@ -33,7 +33,8 @@ struct Summary {
   std::string state_hash;
   EnergySummary energy;
   double mass = 0, volume = 0;                                    // [kg], [m^3]
-  double angular_momentum_drift = 0, linear_momentum_drift = 0;   // [-]
+  std::optional<double> angular_momentum_drift;                   // [-] only without supports and loads
+  double linear_momentum_drift = 0;                               // [-]
   double min_detF = 0, max_detF = 0;
   std::map<std::string, double> errors;                           // empty without an exact solution
   std::map<std::string, std::map<std::string, std::vector<double>>> probes;   // last values

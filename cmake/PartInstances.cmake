@@ -1,0 +1,52 @@
+# One translation unit a combination of traits: the same table as engine/registry.cpp, which does not link when a line is missing here.
+set(PART_INSTANCES "")
+function(add_instance name header)
+  set(INSTANCE_HEADER ${header})
+  string(JOIN "\n" INSTANCE_LINES ${ARGN})
+  configure_file(${CMAKE_CURRENT_SOURCE_DIR}/engine/instance.cpp.in ${CMAKE_CURRENT_BINARY_DIR}/instances/${name}.cpp @ONLY)
+  set(PART_INSTANCES ${PART_INSTANCES} ${CMAKE_CURRENT_BINARY_DIR}/instances/${name}.cpp PARENT_SCOPE)
+endfunction()
+
+set(SWEEP "const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&")
+foreach(tensor true false)
+  foreach(full true false)
+    add_instance(gradient_${tensor}_${full} gradient_part.hpp "template void gradient_part<${tensor}, ${full}>(${SWEEP})\;")
+  endforeach()
+endforeach()
+
+foreach(metric deformed paper)
+  foreach(jump "false, PressureJump::scalar" "true, PressureJump::scalar" "true, PressureJump::tensor")
+    string(REGEX REPLACE "[^a-z]+" "_" tag "${jump}")
+    foreach(kind constant:none linear:none linear:pressure linear:full)
+      string(REPLACE ":" ";" pair ${kind})
+      list(GET pair 0 reconstruction)
+      list(GET pair 1 correction)
+      set(lines "template void edge_flux_part<Reconstruction::${reconstruction}, FluxCorrection::${correction}, ${jump}, UpwindMetric::${metric}>(${SWEEP}, const Scratch&)\;")
+      if(correction STREQUAL none)
+        add_instance(dissipation_${metric}_${tag}_${reconstruction} edge_flux_part.hpp
+          "template double dissipation_part<Reconstruction::${reconstruction}, ${jump}, UpwindMetric::${metric}>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&)\;")
+      endif()
+      add_instance(edge_flux_${metric}_${tag}_${reconstruction}_${correction} edge_flux_part.hpp "${lines}")
+    endforeach()
+  endforeach()
+endforeach()
+
+foreach(formulation pF pFJ pFHJ)
+  foreach(corrected true false)
+    add_instance(accumulate_update_${formulation}_${corrected} accumulate_update_part.hpp
+      "template void accumulate_update_part<Formulation::${formulation}, ${corrected}>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
+  endforeach()
+  foreach(material linear_elastic:quadratic:F neo_hookean:quadratic:F neo_hookean:barrier:F neo_hookean:quadratic:J neo_hookean:barrier:J
+          mooney_rivlin:quadratic:F mooney_rivlin:barrier:F mooney_rivlin:quadratic:J mooney_rivlin:barrier:J)
+    string(REPLACE ":" ";" triple ${material})
+    list(GET triple 0 law)
+    list(GET triple 1 volumetric)
+    list(GET triple 2 isochoric)
+    if(NOT (isochoric STREQUAL J AND formulation STREQUAL pF))
+      set(traits "Law::${law}, Volumetric::${volumetric}, Isochoric::${isochoric}, Formulation::${formulation}")
+      add_instance(stress_${law}_${volumetric}_${isochoric}_${formulation} stress_part.hpp
+        "template PartReport stress_part<${traits}>(const Part&, const Rows&, const Coefficients&, const double*)\;"
+        "template double strain_energy_part<${traits}>(const Part&, const Rows&, const Coefficients&)\;")
+    endif()
+  endforeach()
+endforeach()

@@ -1,0 +1,110 @@
+// Builds the median dual by a counting sort of the tets' edges, and checks its identities.
+#include "engine/dual.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace nanson {
+namespace {
+
+// Edges of a tet as even permutations (a, b; c, d) of its nodes: then C = (c - d) x (c + d - a - b) / 24 points from a to b.
+constexpr int tet_edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+
+Vec3 operator-(const Vec3& p, const Vec3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
+Vec3 operator+(const Vec3& p, const Vec3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
+Vec3 cross(const Vec3& p, const Vec3& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }
+double dot(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+double norm(const Vec3& p) { return std::sqrt(dot(p, p)); }
+
+Vec3 area_in_tet(const Mesh& mesh, const std::array<int, 4>& t, const int (&e)[4]) {
+  const Vec3 &a = mesh.X[t[e[0]]], &b = mesh.X[t[e[1]]], &c = mesh.X[t[e[2]]], &d = mesh.X[t[e[3]]];
+  const Vec3 C = cross(c - d, (c - a) + (d - b));
+  return {C[0] / 24, C[1] / 24, C[2] / 24};
+}
+
+struct TetEdge {
+  int b;
+  Vec3 C;
+};
+
+/// The contributions of all tets, bucketed by the lower node.
+std::vector<TetEdge> bucketed(const Mesh& mesh, std::vector<int>& begin) {
+  begin.assign(mesh.X.size() + 1, 0);
+  for (const auto& t : mesh.tets)
+    for (const auto& e : tet_edges) ++begin[std::min(t[e[0]], t[e[1]]) + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<TetEdge> all(static_cast<std::size_t>(begin.back()));
+  std::vector<int> next(begin.begin(), begin.end() - 1);
+  for (const auto& t : mesh.tets)
+    for (const auto& e : tet_edges) {
+      Vec3 C = area_in_tet(mesh, t, e);
+      int a = t[e[0]], b = t[e[1]];
+      if (a > b) std::swap(a, b), C = {-C[0], -C[1], -C[2]};
+      all[static_cast<std::size_t>(next[a]++)] = {b, C};
+    }
+  return all;
+}
+
+}  // namespace
+
+Dual make_dual(const Mesh& mesh) {
+  Dual dual;
+  std::vector<int> begin;
+  std::vector<TetEdge> all = bucketed(mesh, begin);
+  dual.edges.reserve(all.size() / 5);
+  for (int a = 0; a < static_cast<int>(mesh.X.size()); ++a) {
+    const auto first = all.begin() + begin[a], last = all.begin() + begin[a + 1];
+    std::stable_sort(first, last, [](const TetEdge& p, const TetEdge& q) { return p.b < q.b; });
+    for (auto it = first; it != last; ++it) {
+      if (it == first || it->b != dual.edges.back().b) dual.edges.push_back({a, it->b, it->C});
+      else dual.edges.back().C = dual.edges.back().C + it->C;
+    }
+  }
+  dual.volume.assign(mesh.X.size(), 0.0);
+  for (const auto& t : mesh.tets) {
+    const double quarter = 0.25 * tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);
+    for (int n : t) dual.volume[n] += quarter;
+  }
+  for (int f = 0; f < static_cast<int>(mesh.faces.size()); ++f) {
+    const auto& n = mesh.faces[f].nodes;
+    const Vec3 A = cross(mesh.X[n[1]] - mesh.X[n[0]], mesh.X[n[2]] - mesh.X[n[0]]);
+    for (int k = 0; k < 3; ++k) dual.corners.push_back({n[k], n[(k + 1) % 3], n[(k + 2) % 3], f, {A[0] / 6, A[1] / 6, A[2] / 6}});
+  }
+  std::stable_sort(dual.corners.begin(), dual.corners.end(), [](const DualCorner& p, const DualCorner& q) { return p.a < q.a; });
+  return dual;
+}
+
+DualDefects check_dual(const Mesh& mesh, const Dual& dual) {
+  DualDefects worst;
+  std::vector<Vec3> sum(mesh.X.size(), Vec3{});
+  std::vector<double> size(mesh.X.size(), 0.0);
+  for (const auto& e : dual.edges) {
+    sum[e.a] = sum[e.a] + e.C, sum[e.b] = sum[e.b] - e.C;
+    size[e.a] += norm(e.C), size[e.b] += norm(e.C);
+  }
+  for (const auto& c : dual.corners) sum[c.a] = sum[c.a] + c.C, size[c.a] += norm(c.C);
+  for (std::size_t n = 0; n < sum.size(); ++n) worst.closure = std::max(worst.closure, norm(sum[n]) / size[n]);
+
+  double tets = 0, cells = 0;
+  std::vector<double> around(dual.edges.size(), 0.0);
+  const auto edge_of = [&](int a, int b) {
+    const auto it = std::lower_bound(dual.edges.begin(), dual.edges.end(), std::pair(std::min(a, b), std::max(a, b)),
+                                     [](const DualEdge& e, const std::pair<int, int>& k) { return std::pair(e.a, e.b) < k; });
+    return static_cast<std::size_t>(it - dual.edges.begin());
+  };
+  for (const auto& t : mesh.tets) {
+    const double V = tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);
+    tets += V;
+    for (const auto& e : tet_edges) around[edge_of(t[e[0]], t[e[1]])] += V;
+  }
+  for (double V : dual.volume) cells += V;
+  worst.volume = std::abs(cells - tets) / tets;
+  for (std::size_t e = 0; e < dual.edges.size(); ++e) {
+    const Vec3 D = mesh.X[dual.edges[e].b] - mesh.X[dual.edges[e].a];
+    worst.edge = std::max(worst.edge, std::abs(dot(dual.edges[e].C, D) - 0.5 * around[e]) / (norm(dual.edges[e].C) * norm(D)));
+  }
+  return worst;
+}
+
+}  // namespace nanson

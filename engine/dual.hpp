@@ -1,0 +1,38 @@
+// Median dual of a tetrahedral mesh: edges with area vectors, dual volumes, boundary corners (paper, section 3.1), in the mesh's numbering.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/mesh.hpp"
+
+namespace nanson {
+
+struct DualEdge {
+  int a, b;                       // a < b
+  Vec3 C;                         // [m^2] from a to b
+};
+
+/// A third of a boundary face: owner a, then b and c counter-clockwise from outside.
+struct DualCorner {
+  int a, b, c;
+  int face;                       // index into Mesh::faces
+  Vec3 C;                         // [m^2] outward
+};
+
+struct Dual {
+  std::vector<DualEdge> edges;    // sorted by (a, b)
+  std::vector<DualCorner> corners;  // sorted by a
+  std::vector<double> volume;     // [m^3] Omega_a
+};
+
+/// Worst violations of the identities of the median dual, relative.
+struct DualDefects {
+  double closure = 0;             // |sum C_ab + sum C_gamma| / sum |C|
+  double volume = 0;              // |sum Omega - volume of the tets| / volume
+  double edge = 0;                // |C_ab . D - 1/2 sum of the tet volumes at ab| / (|C_ab| |D|)
+};
+
+Dual make_dual(const Mesh& mesh);
+DualDefects check_dual(const Mesh& mesh, const Dual& dual);
+
+}  // namespace nanson

@@ -1,0 +1,154 @@
+// Fields from rows; errors against exact solutions.
+#include "engine/fields.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+#include "engine/initial.hpp"
+
+namespace nanson {
+namespace {
+
+const double* U_row(const Simulation& s, int node) { return &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])]; }
+const double* PH_row(const Simulation& s, int node) {
+  return &s.state.PH[s.state.now][static_cast<std::size_t>(row::PH * s.order.row_of[static_cast<std::size_t>(node)])];
+}
+
+Tensor<double> F_of(const double* U) {
+  Tensor<double> F;
+  for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
+  return F;
+}
+
+/// Cauchy stress P F^T / J with the J that the scheme carries [Pa].
+Tensor<double> cauchy(const Simulation& s, int node) {
+  const double *U = U_row(s, node), *PH = PH_row(s, node);
+  const Tensor<double> F = F_of(U);
+  const double J = s.scene->physics.formulation == Formulation::pF ? determinant(F, cofactor(F)) : U[3];
+  Tensor<double> sigma{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) {
+      for (int I = 0; I < 3; ++I) sigma[i][j] += PH[8 * I + i] * F[j][I];
+      sigma[i][j] /= J;
+    }
+  return sigma;
+}
+
+double von_mises(const Tensor<double>& a) {
+  const double m = (a[0][0] + a[1][1] + a[2][2]) / 3;
+  double dev2 = 0;
+  for (int k = 0; k < 9; ++k) {
+    const double d = 0.5 * (a[k / 3][k % 3] + a[k % 3][k / 3]) - (k % 4 == 0 ? m : 0.0);
+    dev2 += d * d;
+  }
+  return std::sqrt(1.5 * dev2);
+}
+
+}  // namespace
+
+void field_at(const Simulation& s, std::string_view name, int node, double* out) {
+  const double *U = U_row(s, node), *PH = PH_row(s, node);
+  const Vec3& X = s.mesh->X[static_cast<std::size_t>(node)];
+  for (int k = 0; k < 3; ++k) {
+    if (name == "x") out[k] = U[4 * (k + 1) + 3];
+    if (name == "displacement") out[k] = U[4 * (k + 1) + 3] - X[k];
+    if (name == "velocity") out[k] = U[k];
+  }
+  for (int k = 0; k < 9; ++k) {
+    if (name == "P") out[k] = PH[8 * (k % 3) + k / 3];
+    if (name == "H") out[k] = PH[8 * (k % 3) + 4 + k / 3];
+    if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
+  }
+  const auto det_F = [&] { const auto F = F_of(U); return determinant(F, cofactor(F)); };
+  if (name == "det_F") out[0] = det_F();
+  if (name == "J") out[0] = s.scene->physics.formulation == Formulation::pF ? det_F() : U[3];
+  if (name == "pressure") { const auto a = cauchy(s, node); out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3; }
+  if (name == "von_mises") out[0] = von_mises(cauchy(s, node));
+}
+
+std::vector<float> field(const Simulation& s, const FieldName& name) {
+  std::vector<float> values(static_cast<std::size_t>(s.order.nodes * name.components));
+#pragma omp parallel for schedule(static) num_threads(s.threads)
+  for (int n = 0; n < s.order.nodes; ++n) {
+    double v[9];
+    field_at(s, name.name, n, v);
+    for (int k = 0; k < name.components; ++k) values[static_cast<std::size_t>(n * name.components + k)] = static_cast<float>(v[k]);
+  }
+  return values;
+}
+
+ProbePlace place_probe(const Mesh& mesh, const Vec3& at) {
+  ProbePlace best;
+  double best_least = -1e-9;  // barycentric slack for points on a face
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
+    const auto& n = mesh.tets[t];
+    Vec3 p[4];
+    for (int k = 0; k < 4; ++k) p[k] = mesh.X[static_cast<std::size_t>(n[k])];
+    const double V = tet_volume(p[0], p[1], p[2], p[3]);
+    const std::array<double, 4> w{tet_volume(at, p[1], p[2], p[3]) / V, tet_volume(p[0], at, p[2], p[3]) / V, tet_volume(p[0], p[1], at, p[3]) / V,
+                                  tet_volume(p[0], p[1], p[2], at) / V};
+    const double least = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
+    if (least > best_least) best = {static_cast<int>(t), n, w, at}, best_least = least;
+  }
+  if (best.tet >= 0) return best;
+  double nearest = std::numeric_limits<double>::max();
+  for (std::size_t n = 0; n < mesh.X.size(); ++n) {
+    const double d = std::hypot(mesh.X[n][0] - at[0], mesh.X[n][1] - at[1], mesh.X[n][2] - at[2]);
+    const int node = static_cast<int>(n);
+    if (d < nearest) nearest = d, best = {-1, {node, node, node, node}, {1, 0, 0, 0}, mesh.X[n]};
+  }
+  return best;
+}
+
+void probe(const Simulation& s, const ProbePlace& place, const FieldName& name, double* out) {
+  for (int c = 0; c < name.components; ++c) out[c] = 0;
+  for (int k = 0; k < 4; ++k) {
+    double v[9];
+    field_at(s, name.name, place.nodes[static_cast<std::size_t>(k)], v);
+    for (int c = 0; c < name.components; ++c) out[c] += place.weight[static_cast<std::size_t>(k)] * v[c];
+  }
+}
+
+std::map<std::string, double> exact_errors(const Simulation& s) {
+  std::map<std::string, double> errors;
+  if (!has_exact_solution(*s.scene)) return errors;
+  const MaterialConstants& m = s.coefficients.material;
+  const auto P11 = [&](const PointState& p) {
+    const double trace = p.F[0][0] + p.F[1][1] + p.F[2][2] - 3;
+    return 2 * m.mu * (p.F[0][0] - 1 - trace / 3) + m.kappa * trace;
+  };
+  double e1[2]{}, e2[2]{}, x1[3]{}, x2[3]{};  // p1, P11; sizes of p1, P11 at t and P11 at t = 0
+  for (int n = 0; n < s.order.nodes; ++n) {
+    const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
+    const double V = s.volume[static_cast<std::size_t>(n)];
+    const PointState now = exact_solution(*s.scene, *s.mesh, X, s.t), start = exact_solution(*s.scene, *s.mesh, X, 0);
+    const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)}, ours[2] = {m.rho * U_row(s, n)[0], PH_row(s, n)[0]};
+    for (int k = 0; k < 3; ++k) x1[k] += V * std::abs(exact[k]), x2[k] += V * exact[k] * exact[k];
+    for (int k = 0; k < 2; ++k) e1[k] += V * std::abs(ours[k] - exact[k]), e2[k] += V * (ours[k] - exact[k]) * (ours[k] - exact[k]);
+  }
+  errors["p1_L1"] = e1[0] / x1[0], errors["p1_L2"] = std::sqrt(e2[0] / x2[0]);
+  errors["P11_L1"] = e1[1] / x1[1], errors["P11_L2"] = std::sqrt(e2[1] / x2[1]);
+  errors["P11_L1_t0"] = e1[1] / x1[2], errors["P11_L2_t0"] = std::sqrt(e2[1] / x2[2]);
+  return errors;
+}
+
+std::string state_hash(const Simulation& s) {
+  std::uint64_t h = 14695981039346656037ull;
+  const auto add = [&](const double* p, int count) {
+    for (int k = 0; k < count; ++k) {
+      std::uint64_t bits;
+      std::memcpy(&bits, p + k, sizeof bits);
+      for (int b = 0; b < 64; b += 8) h = (h ^ (bits >> b & 255)) * 1099511628211ull;
+    }
+  };
+  for (int n = 0; n < s.order.nodes; ++n) {
+    add(U_row(s, n), row::U);
+    if (!s.state.H[0].empty()) add(&s.state.H[0][static_cast<std::size_t>(row::H * s.order.row_of[static_cast<std::size_t>(n)])], row::H);
+  }
+  return fmt::format("{:016x}", h);
+}
+
+}  // namespace nanson

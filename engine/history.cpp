@@ -1,0 +1,76 @@
+// History: time, energies, momenta, extrema, reactions by named face, probes.
+#include "engine/history.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/monitor.hpp"
+
+namespace nanson {
+namespace {
+
+constexpr const char* axis[] = {"x", "y", "z"};
+
+/// Components of a field in a column's name: none, x y z, or 11 12 ... 33.
+std::string component(const FieldName& f, int c) {
+  if (f.components == 1) return "";
+  if (f.components == 3) return fmt::format("_{}", axis[c]);
+  return fmt::format("_{}{}", c / 3 + 1, c % 3 + 1);
+}
+
+}  // namespace
+
+const FieldName& field_named(std::string_view name) {
+  const auto at = std::find_if(field_names.begin(), field_names.end(), [&](const FieldName& f) { return f.name == name; });
+  if (at == field_names.end()) throw std::invalid_argument("no field is called " + std::string(name));
+  return *at;
+}
+
+std::vector<Probe> place_probes(const Scene& scene, const Mesh& mesh) {
+  std::vector<Probe> probes;
+  for (const ProbeSpec& p : scene.output.probes) probes.push_back({p, place_probe(mesh, p.at)});
+  return probes;
+}
+
+std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vector<Probe>& probes) {
+  std::vector<HistoryColumn> c{{"step", "-"}, {"t", "s"}, {"dt", "s"}, {"kinetic", "J"}, {"strain", "J"}};
+  if (s.scene->monitor.energy) c.insert(c.end(), {{"external_work", "J"}, {"dissipated", "J"}, {"closure", "-"}});
+  for (const char* k : axis) c.push_back({fmt::format("momentum_{}", k), "kg m/s"});
+  for (const char* k : axis) c.push_back({fmt::format("angular_momentum_{}", k), "kg m^2/s"});
+  c.insert(c.end(), {{"min_det_F", "-"}, {"max_det_F", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
+  for (const std::string& face : s.boundary.held_faces)
+    for (const char* k : axis) c.push_back({fmt::format("reaction_{}_{}", face, k), "N"});
+  for (const Probe& p : probes)
+    for (const std::string& name : p.spec.fields) {
+      const FieldName& f = field_named(name);
+      for (int k = 0; k < f.components; ++k) c.push_back({fmt::format("{}_{}{}", p.spec.name, name, component(f, k)), std::string(f.unit)});
+    }
+  return c;
+}
+
+std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes) {
+  const Energies e = energies(s);
+  const Momenta m = momenta(s);
+  const Extrema x = extrema(s);
+  std::vector<double> row{static_cast<double>(s.step), s.t, s.dt, e.kinetic, e.strain};
+  if (s.scene->monitor.energy) row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s)});
+  row.insert(row.end(), m.linear.begin(), m.linear.end());
+  row.insert(row.end(), m.angular.begin(), m.angular.end());
+  row.insert(row.end(), {x.min_detF, x.max_detF, x.min_J, x.max_J, x.max_speed});
+  for (std::size_t face = 0; face < s.boundary.held_faces.size(); ++face) {
+    const Vec3 R = reaction(s, static_cast<int>(face));
+    row.insert(row.end(), R.begin(), R.end());
+  }
+  for (const Probe& p : probes)
+    for (const std::string& name : p.spec.fields) {
+      double v[9];
+      const FieldName& f = field_named(name);
+      probe(s, p.place, f, v);
+      row.insert(row.end(), v, v + f.components);
+    }
+  return row;
+}
+
+}  // namespace nanson

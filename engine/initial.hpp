@@ -1,0 +1,27 @@
+// Initial states; where a scene has an exact solution, its start is that solution at t = 0.
+#pragma once
+#include <optional>
+
+#include "engine/mesh.hpp"
+#include "kernels/materials/material.hpp"
+
+namespace nanson {
+
+/// Velocity and deformation gradient of a material point.
+struct PointState {
+  Vec3 v{};                                        // [m/s]
+  double F[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+};
+
+bool has_exact_solution(const Scene& scene);
+
+/// The exact solution at X and t (standing_wave: paper, eq. 63; plane_wave: d'Alembert's travelling wave). Linear elasticity.
+PointState exact_solution(const Scene& scene, const Mesh& mesh, const Vec3& X, double t);
+
+/// The state at t = 0. `centre` is the centre of mass.
+PointState initial_state(const Scene& scene, const Mesh& mesh, const Vec3& X, const Vec3& centre);
+
+/// J that starts with F: det F or its linearisation 1 + tr(F - I); the linearisation only for the linear exact solutions.
+double initial_J(const Scene& scene, const double (&F)[3][3]);
+
+}  // namespace nanson

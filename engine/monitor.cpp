@@ -1,0 +1,203 @@
+// Energies, momenta and the energy audit: sums over parts in a fixed order.
+#include "engine/monitor.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/parts.hpp"
+
+namespace nanson {
+namespace {
+
+Rows present_rows(Simulation& s) {
+  State& u = s.state;
+  Rows r{};
+  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data();
+  return r;
+}
+
+/// Sum over the nodes (padding left out) of term(U row, mass), part by part.
+template <class Term>
+double sum_over_nodes(Simulation& s, Term term) {
+  return sum_over_parts(s, [&](int p) {
+    const Part& part = s.order.parts[static_cast<std::size_t>(p)];
+    double sum = 0;
+    for (int n = part.node_begin; n < part.node_end; ++n)
+      if (s.order.node_of[static_cast<std::size_t>(n)] >= 0)
+        sum += term(&s.state.U[0][static_cast<std::size_t>(row::U * n)], s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * n + 3)]);
+    return sum;
+  });
+}
+
+double position(const double* U, int k) { return U[4 * (k + 1) + 3]; }
+double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
+
+double det_F(const double* U) {
+  Tensor<double> F;
+  for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
+  return determinant(F, cofactor(F));
+}
+
+}  // namespace
+
+Energies energies(Simulation& s) {
+  const Rows rows = present_rows(s);
+  Energies e;
+  e.kinetic = sum_over_nodes(s, [](const double* U, double m) { return 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]); });
+  e.strain = sum_over_parts(s, [&](int p) {
+    Part part = s.order.parts[static_cast<std::size_t>(p)];
+    while (part.node_end > part.node_begin && s.order.node_of[static_cast<std::size_t>(part.node_end - 1)] < 0) --part.node_end;
+    return s.functions.strain_energy(part, rows, s.coefficients);
+  });
+  return e;
+}
+
+Momenta momenta(Simulation& s) {
+  Momenta m;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    m.linear[k] = sum_over_nodes(s, [&](const double* U, double mass) { return mass * U[k]; });
+    m.angular[k] = sum_over_nodes(s, [&](const double* U, double mass) { return mass * (position(U, i) * U[j] - position(U, j) * U[i]); });
+  }
+  m.linear_scale = sum_over_nodes(s, [](const double* U, double mass) { return mass * norm3(U[0], U[1], U[2]); });
+  m.angular_scale =
+      sum_over_nodes(s, [](const double* U, double mass) { return mass * norm3(U[0], U[1], U[2]) * norm3(position(U, 0), position(U, 1), position(U, 2)); });
+  return m;
+}
+
+Extrema extrema(const Simulation& s) {
+  Extrema e{1e300, -1e300, 1e300, -1e300, 0};
+  const bool evolves_J = s.scene->physics.formulation != Formulation::pF;
+  for (int n = 0; n < s.order.rows; ++n) {
+    if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
+    const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * n)];
+    const double d = det_F(U), J = evolves_J ? U[3] : d;
+    e.min_detF = std::min(e.min_detF, d), e.max_detF = std::max(e.max_detF, d);
+    e.min_J = std::min(e.min_J, J), e.max_J = std::max(e.max_J, J);
+    e.max_speed = std::max(e.max_speed, norm3(U[0], U[1], U[2]));
+  }
+  return e;
+}
+
+double energy_closure(Simulation& s) {
+  const Energies e = energies(s);
+  const Ledger& l = s.ledger;
+  return std::abs(e.kinetic + e.strain + l.dissipated - l.external_work - l.initial_energy) / l.initial_energy;
+}
+
+double linear_momentum_drift(Simulation& s) {
+  const Momenta m = momenta(s);
+  const Ledger& l = s.ledger;
+  const double d = norm3(m.linear[0] - l.initial_momentum[0] - l.impulse[0], m.linear[1] - l.initial_momentum[1] - l.impulse[1],
+                         m.linear[2] - l.initial_momentum[2] - l.impulse[2]);
+  return m.linear_scale > 0 ? d / m.linear_scale : 0;
+}
+
+std::optional<double> angular_momentum_drift(Simulation& s) {
+  const Vec3& g = s.scene->body_force;
+  if (!s.boundary.constraints.empty() || !s.boundary.loaded.empty() || g[0] != 0 || g[1] != 0 || g[2] != 0) return std::nullopt;
+  const Momenta m = momenta(s);
+  const Vec3& L = s.ledger.initial_angular_momentum;
+  return m.angular_scale > 0 ? norm3(m.angular[0] - L[0], m.angular[1] - L[1], m.angular[2] - L[2]) / m.angular_scale : 0;
+}
+
+void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
+  const auto edges = s.order.edges();
+  const auto lists = s.order.lists();
+  s.ledger.dissipated +=
+      weighted_dt * sum_over_parts(s, [&](int p) { return s.functions.dissipation(s.order.parts[static_cast<std::size_t>(p)], edges, lists, rows, s.coefficients); });
+  double power = 0;
+  for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)
+    for (int n : s.boundary.slot_nodes[slot])
+      for (int k = 0; k < 3; ++k) power += s.state.loads[4 * slot + static_cast<std::size_t>(k)] * rows.W[row::W * n + k];
+  const Vec3& g = s.scene->body_force;
+  if (g[0] != 0 || g[1] != 0 || g[2] != 0)
+    power += sum_over_parts(s, [&](int p) {
+      const Part& part = s.order.parts[static_cast<std::size_t>(p)];
+      double sum = 0;
+      for (int n = part.node_begin; n < part.node_end; ++n) {
+        const double* v = rows.W + row::W * n;  // zero in padding
+        sum += s.coefficients.material.rho / rows.X[row::X * n + 3] * (g[0] * v[0] + g[1] * v[1] + g[2] * v[2]);
+      }
+      return sum;
+    });
+  s.ledger.external_work += weighted_dt * power;
+}
+
+void book_step(Simulation& s) {
+  for (std::size_t i = 0; i < s.boundary.constraints.size(); ++i) {
+    const Constraint& h = s.boundary.constraints[i];
+    const double* R = &s.state.reactions[reaction_row * i];
+    for (int m = 0; m < h.count; ++m)
+      for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * R[m] * h.d[m][k];
+    if (s.scene->monitor.energy) s.ledger.external_work += s.dt * R[3];
+  }
+  for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * s.ledger.mass * s.scene->body_force[k];
+}
+
+Vec3 reaction(const Simulation& s, int face) {
+  Vec3 sum{};
+  for (std::size_t i = 0; i < s.boundary.constraints.size(); ++i) {
+    const Constraint& h = s.boundary.constraints[i];
+    for (int m = 0; m < h.count; ++m)
+      for (int k = 0; k < 3 && h.face[m] == face; ++k) sum[k] += s.state.reactions[reaction_row * i + static_cast<std::size_t>(m)] * h.d[m][k];
+  }
+  return sum;
+}
+
+std::vector<int> tets_around(const Mesh& mesh, int node) {
+  std::vector<int> tets;
+  for (std::size_t t = 0; t < mesh.tets.size(); ++t)
+    if (std::find(mesh.tets[t].begin(), mesh.tets[t].end(), node) != mesh.tets[t].end()) tets.push_back(static_cast<int>(t));
+  return tets;
+}
+
+namespace {
+
+std::string place(const Simulation& s, int node) {
+  const Mesh& mesh = *s.mesh;
+  const std::vector<int> tets = tets_around(mesh, node);
+  std::vector<std::string> regions;
+  for (int t : tets) {
+    const std::string& r = mesh.region_names[static_cast<std::size_t>(mesh.tet_region[static_cast<std::size_t>(t)])];
+    if (std::find(regions.begin(), regions.end(), r) == regions.end()) regions.push_back(r);
+  }
+  const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
+  const Vec3& X = mesh.X[static_cast<std::size_t>(node)];
+  return fmt::format("node {} at X = ({:.6g}, {:.6g}, {:.6g}), x = ({:.6g}, {:.6g}, {:.6g}) m, det F = {:.6g}, J = {:.6g}, |v| = {:.6g} m/s, tets {}, region {}", node,
+                     X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), det_F(U), s.scene->physics.formulation == Formulation::pF ? det_F(U) : U[3],
+                     norm3(U[0], U[1], U[2]), fmt::join(tets, " "), fmt::join(regions, " "));
+}
+
+}  // namespace
+
+Breakdown locate_breakdown(Simulation& s, int stage) {
+  const bool evolves_J = s.scene->physics.formulation != Formulation::pF;
+  for (int node = 0; node < s.order.nodes; ++node) {
+    const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
+    const char* why = !(det_F(U) > 0) ? "det F is not positive" : evolves_J && !(U[3] > 0) ? "J is not positive" : !std::isfinite(norm3(U[0], U[1], U[2])) ? "v is not finite" : nullptr;
+    if (why)
+      return {node, fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
+                                why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node))};
+  }
+  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt)};
+}
+
+Breakdown collapse(Simulation& s, double allowed) {
+  const auto worst = limiting_nodes(s, 1);
+  return {worst[0].first, fmt::format("the step collapsed at step {}, t = {:.6e} s: dt = {:.3e} s is below time.dt_collapse = {:g} times the first, {:.3e} s; set by {}", s.step,
+                                      s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first))};
+}
+
+std::optional<std::string> energy_growth(Simulation& s) {
+  const Energies e = energies(s);
+  const double excess = e.kinetic + e.strain - s.ledger.initial_energy - s.ledger.external_work;
+  const double scale = std::max(s.ledger.initial_energy, std::abs(s.ledger.external_work));
+  if (!(excess > s.scene->monitor.energy_tolerance * scale)) return std::nullopt;
+  return fmt::format("energy grew: at step {}, t = {:.6e} s, it exceeds initial energy and external work by {:.3g} of them (monitor.energy_tolerance = {:g}); lower time.cfl", s.step,
+                     s.t, excess / scale, s.scene->monitor.energy_tolerance);
+}
+
+}  // namespace nanson

@@ -1,0 +1,50 @@
+// What a run watches: energies, momenta, extrema, the energy audit, and where and why it broke down.
+#pragma once
+#include <optional>
+
+#include "engine/solver.hpp"
+
+namespace nanson {
+
+struct Energies {
+  double kinetic = 0, strain = 0;         // [J]
+};
+struct Momenta {
+  Vec3 linear{}, angular{};               // [kg m/s], [kg m^2/s] about the origin
+  double linear_scale = 0, angular_scale = 0;   // sum Omega |p|, sum Omega |x| |p|
+};
+struct Extrema {
+  double min_detF = 0, max_detF = 0, min_J = 0, max_J = 0;   // [-]
+  double max_speed = 0;                                      // [m/s]
+};
+
+Energies energies(Simulation& s);
+Momenta momenta(Simulation& s);
+Extrema extrema(const Simulation& s);
+
+/// |kinetic + strain + dissipated - external_work - initial| / initial (method, section 11); needs monitor.energy.
+double energy_closure(Simulation& s);
+
+/// |sum Omega p - start - impulse| / sum Omega |p|.
+double linear_momentum_drift(Simulation& s);
+/// |L - L(0)| / sum Omega |x| |p|; nothing when supports or loads exert a torque.
+std::optional<double> angular_momentum_drift(Simulation& s);
+
+/// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
+Vec3 reaction(const Simulation& s, int face);
+
+/// One stage's share of dissipation and external work, from the rows of the stage before its update.
+void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
+/// Impulse and work of supports and body force over the step.
+void book_step(Simulation& s);
+
+/// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
+Breakdown locate_breakdown(Simulation& s, int stage);
+Breakdown collapse(Simulation& s, double allowed);
+/// A sentence when the total energy exceeds initial + external work by more than monitor.energy_tolerance.
+std::optional<std::string> energy_growth(Simulation& s);
+
+/// Tets around a mesh node, for messages.
+std::vector<int> tets_around(const Mesh& mesh, int node);
+
+}  // namespace nanson

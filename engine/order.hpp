@@ -1,0 +1,38 @@
+// Order of nodes and edges in memory: METIS parts that fit a core's L2, reverse Cuthill-McKee inside, edges as structure of arrays grouped by part.
+#pragma once
+#include <string>
+#include <vector>
+
+#include "engine/aligned.hpp"
+#include "engine/dual.hpp"
+#include "kernels/part.hpp"
+
+namespace nanson {
+
+/// About this many nodes a part: 1,024 rows of edges fit the L2 (performance: parts of 1k to 4k are equally good). Never depends on threads.
+inline constexpr int part_size = 1024;
+
+struct Order {
+  int nodes = 0;                            // of the mesh
+  int rows = 0;                             // nodes and padding
+  std::vector<int> row_of;                  // mesh node -> row
+  std::vector<int> node_of;                 // row -> mesh node, -1 for padding
+  std::vector<Part> parts;                  // constraint ranges are filled by engine/boundary
+  bool metis_failed = false;                // parts of one RCM numbering were cut instead
+
+  Aligned<std::int32_t> a, b;               // edges
+  Aligned<double> C[3], size;
+  Aligned<std::int32_t> out, in, in_edges, corner;   // node lists
+  Aligned<std::int32_t> corner_b, corner_c, corner_load;
+  Aligned<double> corner_C[3];
+  std::vector<int> corner_face;             // corner -> index into Mesh::faces
+  int most_nodes = 0, most_rows = 0;        // largest part: nodes, rows of its edge buffer
+
+  EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, size.data()}; }
+  CornerArrays corners() const { return {corner_b.data(), corner_c.data(), {corner_C[0].data(), corner_C[1].data(), corner_C[2].data()}, corner_load.data()}; }
+  NodeLists lists() const { return {out.data(), in.data(), in_edges.data(), corner.data()}; }
+};
+
+Order make_order(const Dual& dual, int nodes);
+
+}  // namespace nanson

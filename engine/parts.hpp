@@ -1,0 +1,40 @@
+// Loops over parts and sums over them in an order that no thread count changes.
+#pragma once
+#include <omp.h>
+
+#include <span>
+
+#include "engine/solver.hpp"
+
+namespace nanson {
+
+inline Scratch scratch_of(Simulation& s, int thread) {
+  double* p = s.scratch[static_cast<std::size_t>(thread)].data();
+  const bool corrected = s.scene->physics.flux_correction != FluxCorrection::none;
+  const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.order.most_rows), force = 4 * static_cast<std::ptrdiff_t>(s.order.most_nodes);
+  return {p, p + edge, p + edge + force};
+}
+
+/// Runs sweep(part index, scratch) over all parts; parts stay with their thread from sweep to sweep.
+template <class Sweep>
+void for_parts(Simulation& s, Sweep sweep) {
+  const int count = static_cast<int>(s.order.parts.size());
+#pragma omp parallel for schedule(static) num_threads(s.threads) if (count > 1)
+  for (int p = 0; p < count; ++p) sweep(p, scratch_of(s, omp_get_thread_num()));
+}
+
+/// Sum by halves: the tree depends on the length alone.
+inline double tree_sum(std::span<const double> x) {
+  if (x.size() <= 2) return x.empty() ? 0.0 : x.size() == 1 ? x[0] : x[0] + x[1];
+  const std::size_t half = x.size() / 2;
+  return tree_sum(x.first(half)) + tree_sum(x.subspan(half));
+}
+
+/// Sum of term(part index) over all parts.
+template <class Term>
+double sum_over_parts(Simulation& s, Term term) {
+  for_parts(s, [&](int p, Scratch) { s.part_sums[static_cast<std::size_t>(p)] = term(p); });
+  return tree_sum(s.part_sums);
+}
+
+}  // namespace nanson

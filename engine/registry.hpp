@@ -1,0 +1,19 @@
+// The one table of what is built: from a scene's choices to the part functions of its sweeps.
+#pragma once
+#include "engine/scene.hpp"
+#include "kernels/part.hpp"
+
+namespace nanson {
+
+struct PartFunctions {
+  void (*gradient)(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&) = nullptr;
+  void (*edge_flux)(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&) = nullptr;
+  void (*accumulate_update)(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&) = nullptr;
+  PartReport (*stress)(const Part&, const Rows&, const Coefficients&, const double*) = nullptr;
+  double (*dissipation)(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&) = nullptr;
+  double (*strain_energy)(const Part&, const Rows&, const Coefficients&) = nullptr;
+};
+
+PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material);
+
+}  // namespace nanson

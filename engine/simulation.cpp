@@ -1,0 +1,141 @@
+// Set-up of a simulation: dual, order, boundary, rows, initial state and its stress; and which nodes set the step.
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "engine/initial.hpp"
+#include "engine/material.hpp"
+#include "engine/monitor.hpp"
+#include "engine/parts.hpp"
+#include "engine/solver.hpp"
+#include "engine/time_function.hpp"
+
+namespace nanson {
+namespace {
+
+constexpr double identity_tolerance = 1e-10;  // round-off on flat tets stays far below
+
+Dual checked_dual(const Mesh& mesh) {
+  Dual dual = make_dual(mesh);
+  const DualDefects d = check_dual(mesh, dual);
+  if (!(d.closure < identity_tolerance && d.volume < identity_tolerance && d.edge < identity_tolerance))
+    throw std::runtime_error("the median dual of this mesh does not close: its tets are too flat for double precision");
+  return dual;
+}
+
+Coefficients coefficients_of(const Scene& scene) {
+  Coefficients k;
+  k.material = constants_of(scene.material);
+  k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
+  k.adjoint = scene.physics.boundary_flux == BoundaryFlux::adjoint;
+  k.deformed_metric = scene.physics.upwind_metric == UpwindMetric::deformed;
+  for (int i = 0; i < 3; ++i) k.g[i] = scene.body_force[i];
+  return k;
+}
+
+Vec3 centre_of_mass(const Mesh& mesh, const std::vector<double>& volume) {
+  Vec3 sum{};
+  double total = 0;
+  for (std::size_t n = 0; n < volume.size(); ++n) {
+    total += volume[n];
+    for (int k = 0; k < 3; ++k) sum[k] += volume[n] * mesh.X[n][k];
+  }
+  return {sum[0] / total, sum[1] / total, sum[2] / total};
+}
+
+void set_initial_state(Simulation& s) {
+  const Vec3 centre = centre_of_mass(*s.mesh, s.volume);
+  for (int n = 0; n < s.order.nodes; ++n) {
+    const PointState p = initial_state(*s.scene, *s.mesh, s.mesh->X[static_cast<std::size_t>(n)], centre);
+    const std::size_t r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
+    double* U = &s.state.U[0][row::U * r];
+    Tensor<double> F;
+    for (int k = 0; k < 3; ++k) {
+      U[k] = p.v[k];
+      for (int I = 0; I < 3; ++I) U[4 * (I + 1) + k] = F[k][I] = p.F[k][I];
+    }
+    U[3] = initial_J(*s.scene, p.F);
+    if (s.state.H[0].empty()) continue;
+    const Tensor<double> H = cofactor(F);
+    for (int m = 0; m < 9; ++m) s.state.H[0][row::H * r + 4 * (m / 3) + m % 3] = H[m % 3][m / 3];
+  }
+}
+
+/// Held directions take their prescribed velocity at t = 0; what kinetic energy that removes is kept for the report.
+void constrain_start(Simulation& s) {
+  for (const Constraint& h : s.boundary.constraints) {
+    double* v = &s.state.U[0][static_cast<std::size_t>(row::U * h.node)];
+    const double mass = s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * h.node + 3)];
+    const double before = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
+    for (int m = 0; m < h.count; ++m) {
+      double wanted = 0;
+      for (int i = 0; i < 3; ++i)
+        if (h.weight[m][i] != 0) wanted += h.weight[m][i] * value_at(s.boundary.conditions[static_cast<std::size_t>(h.source[m][i])].time, 0);
+      const double change = wanted - (v[0] * h.d[m][0] + v[1] * h.d[m][1] + v[2] * h.d[m][2]);
+      for (int k = 0; k < 3; ++k) v[k] += change * h.d[m][k];
+    }
+    s.ledger.lost_at_start += 0.5 * mass * (before - (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+  }
+}
+
+Rows start_rows(const Simulation& s, int to) {
+  State& u = const_cast<State&>(s.state);
+  Rows r{};
+  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data(), r.W_new = u.W[to].data(), r.PH_new = u.PH[to].data();
+  return r;
+}
+
+void open_ledger(Simulation& s) {
+  Ledger& l = s.ledger;
+  for (double V : s.volume) l.volume += V;
+  l.mass = l.volume * s.coefficients.material.rho;
+  const Energies e = energies(s);
+  const Momenta m = momenta(s);
+  l.initial_energy = e.kinetic + e.strain, l.initial_momentum = m.linear, l.initial_angular_momentum = m.angular;
+}
+
+}  // namespace
+
+Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
+  const double start = wall_seconds();
+  Simulation s;
+  s.scene = &scene, s.mesh = &mesh, s.threads = std::max(1, threads);
+  const Dual dual = checked_dual(mesh);
+  s.order = make_order(dual, static_cast<int>(mesh.X.size()));
+  s.volume = dual.volume, s.edges = static_cast<long>(dual.edges.size());
+  s.boundary = make_boundary(scene, mesh, s.order);
+  s.state = make_state(scene, mesh, dual, s.order, s.boundary);
+  s.functions = find_part_functions(scene.physics, scene.material);
+  s.coefficients = coefficients_of(scene);
+  s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
+  s.scratch.resize(static_cast<std::size_t>(s.threads));
+  for (auto& scratch : s.scratch) scratch.assign(static_cast<std::size_t>(8 * s.order.most_rows + 16 * s.order.most_nodes) + 16, 0.0);
+  set_initial_state(s);
+  constrain_start(s);
+  const Rows rows = start_rows(s, s.state.now);
+  for_parts(s, [&](int p, Scratch) { s.reports[static_cast<std::size_t>(p)] = s.functions.stress(s.order.parts[static_cast<std::size_t>(p)], rows, s.coefficients, s.state.step_length.data()); });
+  open_ledger(s);
+  s.setup_s = wall_seconds() - start;
+  return s;
+}
+
+std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
+  std::vector<std::pair<int, double>> steps;
+  const Rows rows = start_rows(s, s.state.now);  // evaluates the present stress again: the same values
+  Aligned<double> length(8, 1e300);
+  for (int n = 0; n < s.order.rows; ++n) {
+    const int node = s.order.node_of[static_cast<std::size_t>(n)];
+    if (node < 0) continue;
+    Part eight{};
+    eight.node_begin = n / 8 * 8, eight.node_end = eight.node_begin + 8;
+    length[static_cast<std::size_t>(n % 8)] = s.state.step_length[static_cast<std::size_t>(n)];
+    steps.emplace_back(node, s.scene->time.cfl / s.functions.stress(eight, rows, s.coefficients, length.data() - eight.node_begin).fastest);
+    length[static_cast<std::size_t>(n % 8)] = 1e300;
+  }
+  const auto keep = std::min(steps.size(), static_cast<std::size_t>(count));
+  std::partial_sort(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(keep), steps.end(), [](const auto& p, const auto& q) { return p.second < q.second || (p.second == q.second && p.first < q.first); });
+  steps.resize(keep);
+  return steps;
+}
+
+}  // namespace nanson

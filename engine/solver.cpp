@@ -1,0 +1,178 @@
+// The time loop: run, step, stage (paper, eq. 50), and the sweeps of a stage over parts.
+#include "engine/solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/monitor.hpp"
+#include "engine/parts.hpp"
+#include "engine/time_function.hpp"
+
+namespace nanson {
+namespace {
+
+/// U_new = old U_old + stage (U_stage + dt dU/dt); `mean` is the stage's share in the step's mean rate.
+struct RungeKuttaStage {
+  double old, stage, mean;
+};
+constexpr RungeKuttaStage tvd_rk2[] = {{0, 1, 0.5}, {0.5, 0.5, 0.5}};
+constexpr RungeKuttaStage ssp_rk3[] = {{0, 1, 1.0 / 6}, {0.75, 0.25, 1.0 / 6}, {1.0 / 3, 2.0 / 3, 2.0 / 3}};
+
+/// Force on each corner of the loaded faces at time t, on the stage's geometry; returns their sum [N].
+Vec3 compute_loads(Simulation& s, const double* U, double t) {
+  Vec3 sum{};
+  std::fill(s.state.loads.begin(), s.state.loads.end(), 0.0);
+  for (const LoadedFace& f : s.boundary.loaded) {
+    const double factor = value_at(s.boundary.conditions[static_cast<std::size_t>(f.condition)].time, t);
+    Vec3 force = f.corner_force;
+    if (f.kind == BoundaryKind::pressure) {  // -p a/3, a = (x_b - x_a) x (x_c - x_a)/2: the resultant of a closed surface is exactly zero
+      double e[2][3];
+      for (int k = 0; k < 3; ++k)
+        for (int j = 0; j < 2; ++j) e[j][k] = U[row::U * f.node[j + 1] + 4 * (k + 1) + 3] - U[row::U * f.node[0] + 4 * (k + 1) + 3];
+      for (int k = 0; k < 3; ++k) force[k] = -f.pressure / 6 * (e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3]);
+    }
+    for (int k = 0; k < 3; ++k) s.state.loads[static_cast<std::size_t>(4 * f.slot + k)] += factor * force[k], sum[k] += 3 * factor * force[k];
+  }
+  return sum;
+}
+
+/// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
+void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
+  State& u = s.state;
+  const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1, next = 1 - u.now;
+  Coefficients k = s.coefficients;
+  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
+  Rows rows{u.X.data(), u.U[0].data(), u.U[from].data(), u.H[0].data(), u.H[from].data(), u.W[u.now].data(), u.PH[u.now].data(), u.G.data(), u.Q.data(),
+            u.GP.data(), u.loads.data(), u.U[to].data(), u.H[to].data(), u.W[next].data(), u.PH[next].data()};
+  const auto edges = s.order.edges();
+  const auto corners = s.order.corners();
+  const auto lists = s.order.lists();
+  const bool linear = s.scene->physics.reconstruction == Reconstruction::linear;
+
+  if (!s.boundary.loaded.empty()) {
+    const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
+    for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
+  }
+  if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { s.functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
+  if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
+  s.clock.time("flux_update_stress", [&] {
+    for_parts(s, [&](int p, Scratch scratch) {
+      const Part& part = s.order.parts[p];
+      Rows mine = rows;
+      if (!linear) {  // gradients of this part only, as dF/dt
+        mine.G = scratch.dG - row::G * static_cast<std::ptrdiff_t>(part.node_begin);
+        s.functions.gradient(part, edges, corners, lists, mine, k);
+      }
+      s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
+      s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
+      s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
+    });
+  });
+  u.now = next;
+}
+
+/// Rate of each condition's time factor over the step: prescribed velocities are then exact at t + dt, in every Runge-Kutta stage.
+void prescribe(Simulation& s, std::vector<double>& acceleration) {
+  for (std::size_t i = 0; i < acceleration.size(); ++i) {
+    const TimeFunction& f = s.boundary.conditions[i].time;
+    acceleration[i] = s.boundary.conditions[i].kind == BoundaryKind::velocity ? (value_at(f, s.t + s.dt) - value_at(f, s.t)) / s.dt : 0.0;
+  }
+}
+
+bool broken(const Simulation& s) {
+  return std::any_of(s.reports.begin(), s.reports.end(), [](const PartReport& r) { return r.broken; });
+}
+
+/// The step for the rest of the way: at most 5 % larger than the last, and `end` is hit by sharing the last two steps.
+double next_step(const Simulation& s) {
+  const TimeSpec& time = s.scene->time;
+  double dt = allowed_step(s);
+  if (s.step > 0) dt = std::min(dt, 1.05 * s.dt);
+  if (time.dt_max > 0) dt = std::min(dt, time.dt_max);
+  const double left = time.end - s.t;
+  return left <= dt ? left : left < 2 * dt ? 0.5 * left : dt;
+}
+
+/// Whether to go on after a step: done (so far) | breakdown | stopped, with the reason.
+std::string verdict(Simulation& s, double wall, const std::function<std::string()>& asked_to_stop, std::string& reason) {
+  const TimeSpec& time = s.scene->time;
+  const double allowed = allowed_step(s);
+  if (!(allowed >= time.dt_collapse * s.first_dt)) {
+    s.breakdown = collapse(s, allowed);
+    reason = s.breakdown->text;
+    return "breakdown";
+  }
+  if (s.scene->monitor.energy && s.step % s.scene->output.history_every == 0)
+    if (auto grown = energy_growth(s)) {
+      if (s.scene->monitor.energy_growth == EnergyGrowth::warn) s.warning = *grown;
+      else {
+        s.breakdown = Breakdown{-1, *grown};
+        reason = *grown;
+        return "breakdown";
+      }
+    }
+  if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached";
+  else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached";
+  else if (asked_to_stop) reason = asked_to_stop();
+  return reason.empty() || s.t >= time.end ? "done" : "stopped";
+}
+
+}  // namespace
+
+void advance(Simulation& s) {
+  prescribe(s, s.acceleration);
+  s.coefficients.acceleration = s.acceleration.data();
+  const bool rk2 = s.scene->time.integrator == Integrator::tvd_rk2;
+  const RungeKuttaStage* stages = rk2 ? tvd_rk2 : ssp_rk3;
+  const int count = rk2 ? 2 : 3;
+  for (int i = 0; i < count; ++i) {
+    stage(s, stages[i], i, count);
+    if (broken(s)) {
+      if (i + 1 < count) s.state.U[0] = s.state.U[1], s.state.H[0] = s.state.H[1];
+      s.breakdown = locate_breakdown(s, i + 1);
+      break;
+    }
+  }
+  s.t += s.dt, ++s.step;
+  book_step(s);
+}
+
+double allowed_step(const Simulation& s) {
+  double fastest = 0;
+  for (const PartReport& r : s.reports) fastest = std::max(fastest, r.fastest);
+  return s.scene->time.cfl / fastest;
+}
+
+std::string run(Simulation& s, const Observer& observer, std::string& reason) {
+  const Scene& scene = *s.scene;
+  const auto tell = [&](const auto& what) { if (what) what(s); };
+  const double wall = wall_seconds(), cpu = cpu_seconds();
+  double next_frame = scene.output.every;
+  long last_history = 0, last_frame = 0;
+  std::string status = "done";
+  tell(observer.on_history), tell(observer.on_frame);
+  while (status == "done" && s.t < scene.time.end) {
+    s.dt = next_step(s);
+    const bool last = s.dt == scene.time.end - s.t;
+    if (s.step == 0) s.first_dt = s.dt_min = s.dt_max = s.dt;
+    advance(s);
+    if (last) s.t = scene.time.end;
+    s.dt_min = std::min(s.dt_min, s.dt), s.dt_max = std::max(s.dt_max, s.dt);
+    if (s.breakdown) status = "breakdown", reason = s.breakdown->text;
+    else status = verdict(s, wall_seconds() - wall, observer.stop, reason);
+    s.wall_s = wall_seconds() - wall, s.cpu_s = cpu_seconds() - cpu;
+    tell(observer.on_step);
+    if (status == "done" && s.t >= scene.time.end) break;
+    if (status == "done" && s.step % scene.output.history_every == 0) tell(observer.on_history), last_history = s.step;
+    if (status == "done" && scene.output.every > 0 && s.t >= next_frame) {
+      tell(observer.on_frame), last_frame = s.step;
+      while (next_frame <= s.t) next_frame += scene.output.every;
+    }
+  }
+  s.wall_s = wall_seconds() - wall, s.cpu_s = cpu_seconds() - cpu;
+  if (last_history < s.step) tell(observer.on_history);
+  if (last_frame < s.step) tell(observer.on_frame);
+  return status;
+}
+
+}  // namespace nanson

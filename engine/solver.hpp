@@ -1,0 +1,78 @@
+// A simulation: the whole of a scene in memory, and the time loop over it.
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/clock.hpp"
+#include "engine/registry.hpp"
+#include "engine/state.hpp"
+
+namespace nanson {
+
+/// Sums that a run carries from its start: what momentum and energy are compared with.
+struct Ledger {
+  double mass = 0, volume = 0;            // [kg], [m^3]
+  double lost_at_start = 0;               // [J] kinetic energy that the supports removed from v(0)
+  double initial_energy = 0;              // [J]
+  Vec3 initial_momentum{}, initial_angular_momentum{};  // [kg m/s], [kg m^2/s]
+  Vec3 impulse{};                         // [N s] of loads, body force and supports
+  double external_work = 0, dissipated = 0;   // [J] monitor.energy
+};
+
+struct Breakdown {
+  int node = -1;                          // of the mesh
+  std::string text;                       // where, when and why
+};
+
+struct Simulation {
+  const Scene* scene = nullptr;
+  const Mesh* mesh = nullptr;
+  Order order;
+  std::vector<double> volume;             // [m^3] dual, mesh numbering
+  Boundary boundary;
+  State state;
+  PartFunctions functions;
+  Coefficients coefficients;
+  std::vector<PartReport> reports;        // one a part
+  std::vector<Aligned<double>> scratch;   // one a thread
+  int threads = 1;
+  long edges = 0;
+
+  double t = 0, dt = 0;                   // [s]
+  double first_dt = 0, dt_min = 0, dt_max = 0;
+  long step = 0;
+  double setup_s = 0, wall_s = 0, cpu_s = 0;
+  Ledger ledger;
+  Clock clock;
+  std::optional<Breakdown> breakdown;
+  std::string warning;                    // the first one that a run should show
+  std::vector<double> acceleration;       // [1/s] per boundary condition: rate of the time factor over the step
+  std::vector<double> part_sums;          // one a part, for sums in a fixed order
+};
+
+/// What a run tells the outside; the engine itself touches no file.
+struct Observer {
+  std::function<void(const Simulation&)> on_step;              // after every step
+  std::function<void(const Simulation&)> on_history;           // every history_every steps, at the start and at the end
+  std::function<void(const Simulation&)> on_frame;             // every output.every, at the start and at the end; simulation.breakdown marks the broken one
+  std::function<std::string()> stop;                           // a reason to end after this step, or nothing
+};
+
+/// Dual, order, boundary, state at t = 0 and its stress.
+Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads);
+
+/// Runs to the scene's end. Returns the status: done | breakdown | stopped, with the reason in `reason`.
+std::string run(Simulation& s, const Observer& observer, std::string& reason);
+
+/// One step of size s.dt.
+void advance(Simulation& s);
+
+/// The largest step that the scene's rule allows for the present state [s].
+double allowed_step(const Simulation& s);
+
+/// Places with the smallest step: mesh nodes and their step [s], worst first.
+std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count);
+
+}  // namespace nanson

@@ -1,0 +1,53 @@
+// Fills the stable keys of summary.json.
+#include "engine/summarise.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/monitor.hpp"
+
+namespace nanson {
+
+Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::string& status, const std::string& reason) {
+  const Scene& scene = *s.scene;
+  const PhysicsSpec& p = scene.physics;
+  Summary out;
+  out.status = status, out.reason = reason, out.scene = scene.name;
+  out.formulation = word(p.formulation), out.material = word(scene.material.law), out.reconstruction = word(p.reconstruction);
+  out.flux_correction = word(p.flux_correction), out.boundary_flux = word(p.boundary_flux), out.upwind_metric = word(p.upwind_metric);
+  out.pressure_jump = word(p.pressure_jump), out.integrator = word(scene.time.integrator), out.step = word(scene.time.step);
+  out.split = scene.mesh.source == MeshSource::box ? word(scene.mesh.split) : word(scene.mesh.source);
+  out.nodes = s.order.nodes, out.tets = static_cast<long>(s.mesh->tets.size()), out.edges = s.edges, out.steps = s.step;
+  out.t_end = s.t, out.dt_min = s.dt_min, out.dt_max = s.dt_max, out.threads = s.threads;
+  out.wall_s = s.wall_s, out.cpu_s = s.cpu_s, out.setup_s = s.setup_s;
+  out.ns_per_node_step = s.step > 0 ? 1e9 * s.wall_s / (static_cast<double>(s.step) * s.order.nodes) : 0;
+  out.bytes_per_node = bytes_per_node(s.state, s.order), out.fields_left_out = fields_left_out(scene), out.state_hash = state_hash(s);
+  const Energies e = energies(s);
+  out.energy.initial = s.ledger.initial_energy, out.energy.kinetic = e.kinetic, out.energy.strain = e.strain, out.energy.lost_at_start = s.ledger.lost_at_start;
+  if (scene.monitor.energy)
+    out.energy.external_work = s.ledger.external_work, out.energy.dissipated = s.ledger.dissipated, out.energy.closure = energy_closure(s);
+  out.mass = s.ledger.mass, out.volume = s.ledger.volume;
+  out.angular_momentum_drift = angular_momentum_drift(s), out.linear_momentum_drift = linear_momentum_drift(s);
+  const Extrema x = extrema(s);
+  out.min_detF = x.min_detF, out.max_detF = x.max_detF;
+  out.errors = exact_errors(s);
+  for (const Probe& q : probes)
+    for (const std::string& name : q.spec.fields) {
+      double v[9];
+      const FieldName& f = field_named(name);
+      probe(s, q.place, f, v);
+      out.probes[q.spec.name][name].assign(v, v + f.components);
+    }
+  out.sweeps = s.clock.sweeps;
+  return out;
+}
+
+std::string closing_line(const Summary& s) {
+  std::string line = fmt::format("{} {} {} {} reconstruction, flux correction {}: {} nodes, {} steps, {:.3g} s, {:.0f} ns per node-step", s.status, s.formulation, s.material,
+                                 s.reconstruction, s.flux_correction, s.nodes, s.steps, s.wall_s, s.ns_per_node_step);
+  for (const char* k : {"p1_L2", "P11_L2"})
+    if (const auto at = s.errors.find(k); at != s.errors.end()) line += fmt::format(", {} {:.2e}", k, at->second);
+  if (s.energy.closure) line += fmt::format(", energy closure {:.1e}", *s.energy.closure);
+  return line;
+}
+
+}  // namespace nanson

@@ -1,0 +1,57 @@
+// Mesh quality, the places that set the step, steps, time and memory, and what the scene leaves out.
+#include "io/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "engine/mesh_quality.hpp"
+#include "engine/monitor.hpp"
+#include "io/progress.hpp"
+
+namespace nanson {
+namespace {
+
+void print_limits(const Simulation& s) {
+  fmt::print("smallest steps (cfl {:g}, step {}):\n", s.scene->time.cfl, word(s.scene->time.step));
+  for (const auto& [node, dt] : limiting_nodes(s, 10)) {
+    const Vec3& X = s.mesh->X[static_cast<std::size_t>(node)];
+    fmt::print("  dt {:.4e} s at node {} ({:.6g}, {:.6g}, {:.6g}) m, tets {}\n", dt, node, X[0], X[1], X[2], fmt::join(tets_around(*s.mesh, node), " "));
+  }
+}
+
+/// Wall seconds of a step, best of a few: the state is thrown away afterwards.
+double timed_step(Simulation& s) {
+  double best = 1e300;
+  for (int k = 0; k < 4; ++k) {
+    s.dt = allowed_step(s);
+    const double start = wall_seconds();
+    advance(s);
+    if (k > 0) best = std::min(best, wall_seconds() - start);
+    if (s.breakdown) break;
+  }
+  return best;
+}
+
+}  // namespace
+
+int check_scene(const Loaded& loaded, int threads) {
+  fmt::print("{}", to_text(mesh_quality(loaded.mesh)));
+  Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
+  const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);
+  fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass, s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup_s);
+  print_limits(s);
+  const double seconds = timed_step(s);
+  if (s.breakdown) fmt::print("the first steps break down: {}\n", s.breakdown->text);
+  else
+    fmt::print("about {:.0f} steps of {:.3e} s; {:.0f} ns per node-step on {} threads: {} without output\n", steps, dt, 1e9 * seconds / s.order.nodes, s.threads,
+               duration_text(steps * seconds));
+  fmt::print("memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s.state, s.order), 1e-6 * bytes_per_node(s.state, s.order) * s.order.nodes);
+  for (const std::string& f : loaded.scene.output.fields) fmt::print(" {}", f);
+  fmt::print("\nnot paid for by this scene:\n");
+  for (const std::string& f : fields_left_out(loaded.scene)) fmt::print("  {}\n", f);
+  return 0;
+}
+
+}  // namespace nanson

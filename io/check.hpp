@@ -1,0 +1,9 @@
+// `nanson check`: what a run would be, without running it; writes nothing.
+#pragma once
+#include "io/load.hpp"
+
+namespace nanson {
+
+int check_scene(const Loaded& loaded, int threads);
+
+}  // namespace nanson

@@ -1,0 +1,64 @@
+// The map of the program: command line, then load, then run or check.
+#include <fmt/format.h>
+#include <omp.h>
+
+#include <CLI/CLI.hpp>
+
+#include "io/check.hpp"
+#include "io/provenance.hpp"
+#include "io/results_folder.hpp"
+#include "io/run.hpp"
+
+namespace {
+
+std::string version_text() {
+  const nanson::Provenance p = nanson::provenance();
+  return fmt::format("nanson {} ({})\n{}, {}\ncpu: {}", p.version, p.commit, p.compiler, p.flags, p.cpu);
+}
+
+int list_errors(const std::vector<std::string>& errors) {
+  for (const std::string& e : errors) fmt::print(stderr, "{}\n", e);
+  fmt::print(stderr, "{} error{}: nothing was run or written\n", errors.size(), errors.size() == 1 ? "" : "s");
+  return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"nanson: fast large-strain solid dynamics on tetrahedra"};
+  app.set_version_flag("--version", version_text());
+  app.require_subcommand(1);
+  std::string scene;
+  std::vector<std::string> settings;
+  nanson::RunOptions options;
+  options.threads = omp_get_num_procs();
+  std::string out;
+  const auto common = [&](CLI::App* c) {
+    c->add_option("SCENE", scene, "scene file (TOML)")->required();
+    c->add_option("--threads", options.threads, "threads; results do not depend on it")->check(CLI::Range(1, 4096))->capture_default_str();
+    c->add_option("--set", settings, "KEY=VALUE: overrides a key of the scene, e.g. --set time.end=0.01")->take_all();
+    return c;
+  };
+  CLI::App* run = common(app.add_subcommand("run", "run a scene; results in results/SCENE/ or in --out DIR"));
+  run->add_option("--out", out, "folder for the results");
+  run->add_flag("--quiet", options.quiet, "only errors and warnings");
+  CLI::App* check = common(app.add_subcommand("check", "mesh quality, step, memory and estimated time; writes nothing"));
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? 0 : 2;
+  }
+  try {
+    std::vector<std::string> errors;
+    const auto loaded = nanson::load(scene, settings, errors);
+    if (!loaded) return list_errors(errors);
+    if (!out.empty()) options.out = out;
+    return check->parsed() ? nanson::check_scene(*loaded, options.threads) : nanson::run_scene(*loaded, options);
+  } catch (const nanson::FolderError& e) {
+    fmt::print(stderr, "{}\n", e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "nanson: {}\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,90 @@
+// Wires a simulation to its files: the observer writes, the engine computes.
+#include "io/run.hpp"
+
+#include <fmt/format.h>
+
+#include "engine/monitor.hpp"
+#include "engine/summarise.hpp"
+#include "io/progress.hpp"
+#include "io/provenance.hpp"
+#include "io/results_folder.hpp"
+#include "io/signals.hpp"
+#include "io/write_fields.hpp"
+#include "io/write_history.hpp"
+#include "io/write_summary.hpp"
+
+namespace nanson {
+namespace {
+
+void say(const RunOptions& options, const std::string& line) {
+  if (!options.quiet) fmt::print("{}\n", line), std::fflush(stdout);
+}
+
+void print_start(const RunOptions& options, Simulation& s, const std::vector<Probe>& probes, const std::filesystem::path& folder) {
+  const Energies e = energies(s);
+  const Momenta m = momenta(s);
+  say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, set up in {:.2f} s, {:.0f} bytes a node", s.scene->name, s.order.nodes,
+                           s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads, s.threads == 1 ? "" : "s", s.setup_s, bytes_per_node(s.state, s.order)));
+  say(options, fmt::format("start: mass {:.6g} kg, volume {:.6g} m^3, kinetic {:.6g} J, strain {:.6g} J, momentum ({:.4g}, {:.4g}, {:.4g}) kg m/s, angular momentum "
+                           "({:.4g}, {:.4g}, {:.4g}) kg m^2/s",
+                           s.ledger.mass, s.ledger.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2], m.angular[0], m.angular[1], m.angular[2]));
+  if (s.ledger.lost_at_start > 1e-12 * s.ledger.initial_energy)
+    say(options, fmt::format("start: the supports remove {:.4g} J of kinetic energy from the initial velocity", s.ledger.lost_at_start));
+  if (s.mesh->reoriented > 0) say(options, fmt::format("mesh: {} tets were inverted and have been turned", s.mesh->reoriented));
+  if (s.mesh->unnamed_faces > 0) say(options, fmt::format("mesh: {} boundary triangles have no name: free", s.mesh->unnamed_faces));
+  if (!s.boundary.free_faces.empty()) say(options, fmt::format("faces that no [[boundary]] names are free: {}", fmt::join(s.boundary.free_faces, " ")));
+  if (s.order.metis_failed) say(options, "order: METIS failed; one RCM numbering was cut into parts instead");
+  for (const Probe& p : probes)
+    say(options, p.place.tet >= 0 ? fmt::format("probe {}: in tet {}", p.spec.name, p.place.tet)
+                                  : fmt::format("probe {}: outside the mesh, nearest node {} at ({:.6g}, {:.6g}, {:.6g})", p.spec.name, p.place.nodes[0], p.place.at[0],
+                                                p.place.at[1], p.place.at[2]));
+  say(options, fmt::format("results: {}", folder.string()));
+}
+
+std::vector<FieldName> fields_of(const Scene& scene) {
+  std::vector<FieldName> fields;
+  for (const std::string& name : scene.output.fields) fields.push_back(field_named(name));
+  return fields;
+}
+
+}  // namespace
+
+int run_scene(const Loaded& loaded, const RunOptions& options) {
+  const Scene& scene = loaded.scene;
+  ResultsFolder folder(scene.name, options.out);
+  Simulation s = make_simulation(scene, loaded.mesh, options.threads);
+  const std::vector<Probe> probes = place_probes(scene, loaded.mesh);
+  const std::vector<std::string> replaced = folder.begin();
+  if (!replaced.empty()) say(options, fmt::format("replaces an earlier run's {}", fmt::join(replaced, " ")));
+  print_start(options, s, probes, folder.path());
+
+  const Provenance from = provenance();
+  FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.threads, scene.text), scene.output.compress);
+  HistoryWriter history(folder.path() / "history.csv", history_columns(s, probes));
+  Progress progress(0, scene.time.end, options.quiet);
+  catch_stop_signals();
+  std::string warned;
+  std::vector<float> buffer;
+  Observer observer;
+  observer.on_step = [&](const Simulation& now) {
+    progress.update(now.step, now.t, now.dt, std::nullopt);
+    if (!now.warning.empty() && warned.empty()) warned = now.warning, progress.message("warning: " + warned);
+  };
+  observer.on_history = [&](const Simulation&) { history.row(history_row(s, probes)); };
+  observer.on_frame = [&](const Simulation& now) {
+    fields.frame(now.t, now.step, now.breakdown.has_value(), [&](const FieldName& f) {
+      buffer = field(now, f);
+      return std::span<const float>(buffer);
+    });
+  };
+  observer.stop = [] { return stop_signal() ? fmt::format("signal {}", stop_signal()) : std::string(); };
+  std::string reason;
+  const std::string status = run(s, observer, reason);
+  const Summary summary = summarise(s, probes, status, reason);
+  write_summary(folder.path() / "summary.json", summary, from);
+  if (!reason.empty()) progress.message(status + ": " + reason);
+  say(options, closing_line(summary));
+  return status == "breakdown" ? 3 : stop_signal() ? 128 + stop_signal() : 0;
+}
+
+}  // namespace nanson

@@ -1,0 +1,19 @@
+// `nanson run`: a loaded scene to fields, history and summary.
+#pragma once
+#include <filesystem>
+#include <optional>
+
+#include "io/load.hpp"
+
+namespace nanson {
+
+struct RunOptions {
+  int threads = 1;
+  std::optional<std::filesystem::path> out;
+  bool quiet = false;
+};
+
+/// Exit code: 0 done, 3 the solution broke down, 128 + n ended by signal n.
+int run_scene(const Loaded& loaded, const RunOptions& options);
+
+}  // namespace nanson

@@ -1,0 +1,109 @@
+// Nodal gather of the part-local buffer (scatter-free), supports, and the Runge-Kutta update of {v, J, F, H, x} (paper, eq. 40a, 43, 50).
+#pragma once
+#include "kernels/part.hpp"
+
+namespace nanson {
+
+/// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
+/// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
+template <bool corrected>
+NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+  constexpr int width = corrected ? 8 : 4;
+  const double* buffer = scratch.edge;
+  const double* corner_buffer = scratch.edge + width * static_cast<std::ptrdiff_t>(part.edge_end - part.edge_begin);
+  for (int n = part.node_begin; n < part.node_end; ++n) {
+    const double inverse_volume = rows.X[row::X * n + 3], mass = k.material.rho / inverse_volume;
+    Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
+    Vec4 g0{}, g1{}, g2{};
+    auto add_q = [&](const double* r, double C0, double C1, double C2) {
+      const Vec4 q = load4(r + 4);
+      g0 = fma(q, broadcast4(C0), g0), g1 = fma(q, broadcast4(C1), g1), g2 = fma(q, broadcast4(C2), g2);
+    };
+    for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
+      const double* r = buffer + width * (e - part.edge_begin);
+      f = f + load4(r);
+      if constexpr (corrected) add_q(r, edges.C[0][e], edges.C[1][e], edges.C[2][e]);
+    }
+    for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
+      const std::int32_t e = lists.in_edges[i];
+      const double* r = buffer + width * (e - part.edge_begin);
+      f = f - load4(r);
+      if constexpr (corrected) add_q(r, -edges.C[0][e], -edges.C[1][e], -edges.C[2][e]);
+    }
+    for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) f = f + load4(corner_buffer + width * (g - part.corner_begin));
+    store4(scratch.force + 4 * (n - part.node_begin), f);
+    if constexpr (corrected) {
+      double* dG = scratch.dG + 12 * (n - part.node_begin);
+      const Vec4 inverse = broadcast4(inverse_volume);
+      store4(dG, g0 * inverse), store4(dG + 4, g1 * inverse), store4(dG + 8, g2 * inverse);
+    }
+  }
+}
+
+/// Along each held direction the force becomes mass x prescribed acceleration; what the support gave is booked [N].
+NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficients& k, const Constraint* constraints, double* reactions, const Scratch& scratch) {
+  for (std::int32_t i = part.constraint_begin; i < part.constraint_end; ++i) {
+    const Constraint& h = constraints[i];
+    double* f = scratch.force + 4 * (h.node - part.node_begin);
+    const double mass = k.material.rho / rows.X[row::X * h.node + 3];
+    const double* v = rows.W + row::W * h.node;
+    double* booked = reactions + reaction_row * i;
+    if (k.first_stage)
+      for (int m = 0; m < reaction_row; ++m) booked[m] = 0;
+    for (int m = 0; m < h.count; ++m) {
+      double wanted = 0;
+      for (int s = 0; s < 3; ++s)
+        if (h.weight[m][s] != 0) wanted += h.weight[m][s] * k.acceleration[h.source[m][s]];
+      const double* d = h.d[m];
+      const double reaction = mass * wanted - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
+      for (int j = 0; j < 3; ++j) f[j] += reaction * d[j];
+      booked[m] += k.reaction_weight * reaction;
+      booked[3] += k.reaction_weight * reaction * (v[0] * d[0] + v[1] * d[1] + v[2] * d[2]);
+    }
+  }
+}
+
+/// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
+template <Formulation formulation, bool corrected>
+NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+  const Vec4 w0 = broadcast4(k.old_weight), w1 = broadcast4(k.stage_weight), dt = broadcast4(k.dt);
+  const double inverse_rho = 1.0 / k.material.rho;
+  auto advance = [&](const double* old_row, const double* stage_row, double* new_row, Vec4 rate) {
+    store4(new_row, fma(dt, rate, fma(w0, load4(old_row), w1 * load4(stage_row))));
+  };
+  for (int n = part.node_begin; n < part.node_end; ++n) {
+    const double *U_old = rows.U_old + row::U * n, *U_stage = rows.U_stage + row::U * n, *PH = rows.PH + row::PH * n, *G = rows.G + row::G * n;
+    double* U_new = rows.U_new + row::U * n;
+    Vec4 g[3] = {load4(G), load4(G + 4), load4(G + 8)};
+    if constexpr (corrected)
+      for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I);
+    const double inverse_volume = rows.X[row::X * n + 3], inverse_mass = inverse_rho * inverse_volume;
+    Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin)) * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
+    if constexpr (formulation != Formulation::pF) {
+      Vec4 p = load4(PH + 4) * g[0];
+      p = fma(load4(PH + 12), g[1], p), p = fma(load4(PH + 20), g[2], p);
+      rate[3] += (p[0] + p[1]) + p[2];
+    }
+    const Vec4 v = load4(U_stage);
+    const Vec4 F[3] = {load4(U_stage + 4), load4(U_stage + 8), load4(U_stage + 12)};
+    advance(U_old, U_stage, U_new, rate);
+    for (int I = 0; I < 3; ++I) advance(U_old + 4 * (I + 1), U_stage + 4 * (I + 1), U_new + 4 * (I + 1), Vec4{g[I][0], g[I][1], g[I][2], v[I]});
+    if constexpr (formulation == Formulation::pFHJ) {
+      Tensor<double> Fa, Ga;
+      for (int m = 0; m < 9; ++m) Fa[m % 3][m / 3] = F[m / 3][m % 3], Ga[m % 3][m / 3] = g[m / 3][m % 3];
+      const Tensor<double> dH = cross(Fa, Ga);
+      for (int I = 0; I < 3; ++I)
+        advance(rows.H_old + row::H * n + 4 * I, rows.H_stage + row::H * n + 4 * I, rows.H_new + row::H * n + 4 * I, Vec4{dH[0][I], dH[1][I], dH[2][I], 0.0});
+    }
+  }
+}
+
+template <Formulation formulation, bool corrected>
+void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k,
+                            const Constraint* constraints, double* reactions, const Scratch& scratch) {
+  gather<corrected>(part, edges, lists, rows, k, scratch);
+  constrain(part, rows, k, constraints, reactions, scratch);
+  update<formulation, corrected>(part, rows, k, scratch);
+}
+
+}  // namespace nanson

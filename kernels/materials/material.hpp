@@ -1,0 +1,49 @@
+// What every material law takes and gives.
+#pragma once
+#include "kernels/tensor.hpp"
+#include "kernels/traits.hpp"
+
+namespace nanson {
+
+/// Constants of a material. mu = E/(2(1+nu)), kappa = E/(3(1-2nu)); 2 zeta + 3 sqrt(3) xi = mu.
+struct MaterialConstants {
+  double rho = 0;                  // [kg/m^3] undeformed density
+  double mu = 0, kappa = 0;        // [Pa] shear and bulk modulus
+  double zeta = 0, xi = 0;         // [Pa] of the isochoric energy (paper, eq. 14)
+  double cp = 0, cs = 0;           // [m/s] undeformed wave speeds (paper, eq. 39)
+};
+
+/// Stress of one node (or of eight as lanes).
+template <class Real>
+struct Stress {
+  Tensor<Real> P;                  // [Pa] first Piola-Kirchhoff stress
+  Tensor<Real> H;                  // [-] the area map that fluxes and dJ/dt use
+  Real Sigma_J;                    // [Pa] conjugate of J, whose jump stabilises it
+  Real det_F;                      // [-]
+  Real rho_c2;                     // [Pa] bound of rho0 c^2 over all directions, c the fastest reference-frame speed of the acoustic tensor
+  Real d2U;                        // [Pa] U''(J)
+  Real H2;                         // [-] bound of the squared spectral norm of H
+};
+
+/// Largest eigenvalue of a symmetric positive 3x3 tensor is at most m + sqrt(2) s, m and s mean and deviation of its eigenvalues (exact for equal stretches).
+template <class Real>
+NANSON_INLINE Real eigenvalue_bound(Real trace, Real trace_of_square) {
+  const Real m = trace * (1.0 / 3.0);
+  const Real s2 = trace_of_square * (1.0 / 3.0) - m * m;
+  return m + root(2.0 * larger(s2, s2 - s2));
+}
+
+/// Squared spectral norms of F and of cof F from F:F, H:H and det F, as bounds.
+template <class Real>
+struct SpectralBounds {
+  Real F2, H2;
+};
+template <class Real>
+NANSON_INLINE SpectralBounds<Real> spectral_bounds(Real FF, Real HH, Real j) {
+  return {eigenvalue_bound(FF, FF * FF - 2.0 * HH), eigenvalue_bound(HH, HH * HH - 2.0 * FF * (j * j))};
+}
+
+template <Law, Volumetric, Isochoric, Formulation>
+struct Material;
+
+}  // namespace nanson

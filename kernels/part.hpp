@@ -1,0 +1,132 @@
+// What a part function sees: a part's nodes, edges and boundary corners, the nodal rows, and the coefficients of a stage.
+#pragma once
+#include <cstdint>
+
+#include "kernels/materials/material.hpp"
+
+namespace nanson {
+
+/// Doubles in a row of each role. Rows are 32-byte multiples, arrays 64-byte aligned.
+namespace row {
+inline constexpr int U = 16;    // {v, J | columns of F, each with a component of x}
+inline constexpr int H = 12;    // {columns of H, 0}, pFHJ only
+inline constexpr int W = 4;     // {v, Sigma_J}: what is reconstructed and swept
+inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}
+inline constexpr int G = 12;    // per direction I: d{v, Sigma_J}/dX_I
+inline constexpr int Q = 12;    // {columns of Q, 0}: the nodal stress of the full flux correction
+inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
+inline constexpr int X = 4;     // {X, 1/Omega}
+}  // namespace row
+
+/// Edges as structure of arrays, grouped by part, sorted by their first node a, which the part owns; an edge between two parts stands in both.
+struct EdgeArrays {
+  const std::int32_t* a;        // row of the owned node
+  const std::int32_t* b;        // row of the other node
+  const double* C[3];           // [m^2] area vector from a to b
+  const double* size;           // [m^2] |C|
+};
+
+/// Boundary corners (a; b, c): a third of a boundary face, in rows by owning node a.
+struct CornerArrays {
+  const std::int32_t* b;
+  const std::int32_t* c;
+  const double* C[3];           // [m^2] outward, a third of the face
+  const std::int32_t* load;     // index into the loads of the stage, -1 without
+};
+
+/// Per node: where its out-edges, in-edges (owned edges that end in it) and corners begin; one more entry than nodes.
+struct NodeLists {
+  const std::int32_t* out;
+  const std::int32_t* in;
+  const std::int32_t* in_edges;  // edge numbers
+  const std::int32_t* corner;
+};
+
+struct Part {
+  std::int32_t node_begin, node_end;                // rows; a multiple of 8, padded with nodes that have no edges
+  std::int32_t edge_begin, edge_end;
+  std::int32_t corner_begin, corner_end;
+  std::int32_t constraint_begin, constraint_end;
+};
+
+/// The rows of a stage: what is read first, what is written last.
+struct Rows {
+  const double* X;
+  const double* U_old;          // state at the start of the step
+  const double* U_stage;        // state whose rates are taken
+  const double* H_old;
+  const double* H_stage;
+  const double* W;              // of the stage
+  const double* PH;             // of the stage
+  double* G;
+  double* Q;
+  double* GP;
+  const double* loads;          // [N] 4 a loaded face: the force on each of its corners
+  double* U_new;
+  double* H_new;
+  double* W_new;
+  double* PH_new;
+};
+
+/// Directions in which a node is held, orthonormal, with what prescribes the acceleration along each.
+struct Constraint {
+  std::int32_t node = 0;
+  std::int32_t count = 0;
+  double d[3][3] = {};
+  std::int32_t face[3] = {};        // index of the named face that holds the direction
+  std::int32_t source[3][3] = {};   // boundary conditions whose prescribed velocities enter direction k ...
+  double weight[3][3] = {};         // ... with these weights (0: none)
+};
+
+inline constexpr int reaction_row = 4;  // per constraint: mean force of the support along each direction [N], its power [W]
+
+/// Constants of a scene and of a stage.
+struct Coefficients {
+  MaterialConstants material;
+  double rho_cp = 0, rho_cs = 0;    // [kg/(m^2 s)]
+  double theta = 2.0 / 3;           // [-] flux correction
+  bool adjoint = true;              // boundary flux
+  bool deformed_metric = true;      // upwinding, for the step bound
+  double g[3] = {};                 // [m/s^2] body force
+  double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
+  double reaction_weight = 0;       // share of this stage in the step's mean reaction; the first stage overwrites
+  bool first_stage = true;
+  const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step
+};
+
+/// Part-local buffers of one thread.
+struct Scratch {
+  double* edge;                 // row of 4 {flux, D^J} an edge or corner, of 8 with a flux correction: {q, 0} too
+  double* force;                // row of 4 {force, J source} a node
+  double* dG;                   // row of 12 a node, flux correction only
+};
+
+/// What a part reports after its update: never checked inside, the step decides.
+struct PartReport {
+  double fastest = 0;           // [1/s] largest c/l over the nodes; dt = cfl/fastest
+  bool broken = false;          // some node with !(det F > 0), !(J > 0) where carried, or v not finite
+};
+
+// The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.
+template <bool tensor_jump, bool full_correction>
+void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
+
+template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric>
+void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+
+template <Formulation, bool corrected>
+void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
+                            const Scratch&);
+
+template <Law, Volumetric, Isochoric, Formulation>
+PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
+
+/// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
+template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric>
+double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
+
+/// Strain energy of a part's nodes in U_new, H_new [J].
+template <Law, Volumetric, Isochoric, Formulation>
+double strain_energy_part(const Part&, const Rows&, const Coefficients&);
+
+}  // namespace nanson
