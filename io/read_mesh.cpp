@@ -117,20 +117,24 @@ Bytes read_bytes(const std::filesystem::path& path) {
 
 }  // namespace
 
+RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>& errors) {
+  MshCursor in(bytes);
+  try {
+    std::vector<std::string> problems;
+    RawMesh mesh = to_raw_mesh(read_content(in), problems);
+    for (const auto& problem : problems) errors.push_back(fmt::format("{}: {}", name, problem));
+    return mesh;
+  } catch (const MshError& problem) {
+    errors.push_back(fmt::format("{}:{}", name, problem.what()));
+    return {};
+  }
+}
+
 RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& errors) {
   if (const auto problem = path_problem(path); !problem.empty()) return errors.push_back(path.string() + ": " + problem), RawMesh{};
   const Bytes bytes = read_bytes(path);
   if (!bytes.complete) return errors.push_back(path.string() + ": cannot be read"), RawMesh{};
-  MshCursor in({bytes.data.get(), bytes.size});
-  try {
-    std::vector<std::string> problems;
-    RawMesh mesh = to_raw_mesh(read_content(in), problems);
-    for (const auto& problem : problems) errors.push_back(path.string() + ": " + problem);
-    return mesh;
-  } catch (const MshError& problem) {
-    errors.push_back(path.string() + ":" + problem.what());
-    return {};
-  }
+  return read_msh({bytes.data.get(), bytes.size}, path.string(), errors);
 }
 
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
