@@ -1,6 +1,8 @@
 // The sections of a scene that are read key by key. Defaults stand in engine/scene.hpp.
 #include "io/scene_sections.hpp"
 
+#include "engine/registry.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -85,14 +87,22 @@ void read_material(Table& t, MaterialSpec& m) {
 
 void read_physics(Table& t, PhysicsSpec& p) {
   t.read("formulation", p.formulation);
+  t.read("stabilisation", p.stabilisation);
   t.read("pressure_jump", p.pressure_jump);
   t.read("reconstruction", p.reconstruction);
   t.read("flux_correction", p.flux_correction);
   t.read("boundary_flux", p.boundary_flux);
   t.read("upwind_metric", p.upwind_metric);        // both words also with linear_elastic: there H = I and they agree
+  t.read("entropy_fix", p.entropy_fix);
   const bool corrected = t.sound("flux_correction") && p.flux_correction != FluxCorrection::none;
   if (corrected && t.sound("reconstruction") && p.reconstruction == Reconstruction::constant)
-    t.fail("flux_correction", "needs reconstruction = \"linear\": the correction is made of its gradients");
+    t.fail("flux_correction", "needs reconstruction = \"linear\" or \"limited\": the correction is made of its gradients");
+  if (t.sound("pressure_jump") && p.pressure_jump == PressureJump::tensor && (p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none))
+    t.fail("pressure_jump", fmt::format("is not built with limited or entropy_fix; {}", what_is_built));
+  if (t.sound("stabilisation") && p.stabilisation == Stabilisation::jst &&
+      (p.reconstruction != Reconstruction::linear || p.flux_correction != FluxCorrection::none || p.pressure_jump != PressureJump::scalar ||
+       p.entropy_fix != EntropyFix::none || p.upwind_metric != UpwindMetric::deformed))
+    t.fail("stabilisation", fmt::format("jst has no reconstruction, flux_correction, pressure_jump, upwind_metric or entropy_fix to choose; {}", what_is_built));
 }
 
 void read_initial(Table& t, InitialSpec& s) {
@@ -156,6 +166,8 @@ void check_together(Table& root, const Scene& s) {
     if (s.initial.J == InitialJ::det) at("initial", "J", why);
     if (s.physics.pressure_jump == PressureJump::tensor) at("physics", "pressure_jump", why);
   }
+  if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
+    at("monitor", "energy", "audits the upwind stabilisation only, not jst");
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
   if (wave && sound("material.law") && s.material.law != Law::linear_elastic)
     at("initial", "field", "needs material.law = \"linear_elastic\": its exact solution is linear");
