@@ -110,8 +110,9 @@ TEST(ReadGmsh, RefusesSecondOrderAndPartitionedMeshes) {
 
 TEST(ReadGmsh, RefusesPrismsOfExtrudedLayers) {
   Gmsh gmsh;
-  gmsh.mesh("h = 0.5;\nPoint(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {0, 1, 0, h};\nLine(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\n"
-            "Curve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\nout() = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };\nPhysical Volume(\"v\") = {out(1)};\n",
+  gmsh.mesh("h = 0.5;\nPoint(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {0, 1, 0, h};\n"
+            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n"
+            "out() = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };\nPhysical Volume(\"v\") = {out(1)};\n",
             "-format msh41");
   ASSERT_EQ(gmsh.errors.size(), 1u);
   EXPECT_NE(gmsh.errors[0].find("element type 6 (6-node prism)"), std::string::npos) << gmsh.errors[0];
