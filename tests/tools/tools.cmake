@@ -1,4 +1,6 @@
-# Results read with other programs, where these are installed, and the build's provenance script.
+# The launcher, results read with other programs, where these are installed, and the build's provenance script.
+add_test(NAME Launcher COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/launcher_test.sh)
+
 add_executable(write_sample tests/tools/write_sample.cpp)
 target_link_libraries(write_sample PRIVATE nanson_io)
 
