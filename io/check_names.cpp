@@ -1,6 +1,6 @@
 // Names and places of a scene that only the mesh can confirm.
 #include <algorithm>
-#include <cmath>
+#include <limits>
 
 #include "io/read_scene.hpp"
 #include "io/words.hpp"
@@ -14,7 +14,8 @@ struct Box {
 };
 
 Box bounding_box(const Mesh& mesh) {
-  Box box{mesh.X.front(), mesh.X.front()};
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  Box box{{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
   for (const Vec3& X : mesh.X) {
     for (std::size_t i = 0; i < 3; ++i) {
       box.low[i] = std::min(box.low[i], X[i]);
@@ -45,7 +46,6 @@ std::vector<std::string> check_names(const Scene& scene, const Mesh& mesh) {
       errors.push_back(fmt::format("{}: boundary.{}.face = \"{}\": {}", face.where, i, face.name, unknown_word("face", face.name, mesh.patch_names)));
     }
   }
-  if (mesh.X.empty()) return errors;
   const Box box = bounding_box(mesh);
   for (const ProbeSpec& p : scene.output.probes) {
     if (inside(box, p.at)) continue;

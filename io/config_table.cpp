@@ -150,6 +150,7 @@ void Table::only(std::string_view kind, std::span<const std::string_view> own, s
 void Table::pass(std::span<const std::string_view> keys) { passed_.insert(passed_.end(), keys.begin(), keys.end()); }
 
 void Table::fail(std::string_view key, std::string_view why) {
+  diagnostics_.wrong.insert(path(key));
   if (const toml::node* node = find(key)) report(diagnostics_, *node, path(key), why);
   else report(diagnostics_, place(key), fmt::format("{}: {}", path(key), why));
 }

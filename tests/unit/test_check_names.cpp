@@ -7,7 +7,7 @@ namespace {
 
 Mesh box_mesh() {
   Mesh m;
-  m.X = {{-0.5, -0.5, 0}, {0.5, 0.5, 6}, {0, 0, 3}};
+  m.X = {{0.1, 0, 3}, {-0.5, 0.5, 0}, {0.5, -0.5, 6}, {0, 0, 3}};
   m.patch_names = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
   return m;
 }

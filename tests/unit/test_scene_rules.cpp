@@ -187,6 +187,8 @@ TEST(Scene, RulesAreSilentAboutValuesThatAreWrongThemselves) {
       "scene.toml:12:9: initial.field = \"twists\": unknown word, did you mean \"twist\"?");
   expect_error(with("[[boundary]]\nface = \"a\"\nkind = \"velocity\"\nv = [1, 2]\n[[boundary]]\nface = \"a\"\nkind = \"traction\"\nt = [0, 0, 0]\n"),
       "scene.toml:14:5: boundary.0.v = [1, 2]: must be three numbers, or \"free\"");
+  expect_error(with("[[boundary]]\nface = \"a\"\nkind = \"velocity\"\nv = [1, 2, inf]\n[[boundary]]\nface = \"a\"\nkind = \"pressure\"\np = 1\n"),
+      "scene.toml:14:12: boundary.0.v.2 = inf: must be finite");
 }
 
 TEST(Scene, InitialFieldsReadTheirOwnKeys) {
