@@ -1,3 +1,4 @@
+// What only the running program can say: the host and the time.
 #include "io/provenance.hpp"
 
 #include <unistd.h>

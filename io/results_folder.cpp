@@ -1,3 +1,4 @@
+// Creating, locking and clearing the folder, each refusal with its reason.
 #include "io/results_folder.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The handler and its flag.
 #include "io/signals.hpp"
 
 #include <array>

@@ -1,3 +1,4 @@
+// Rows as text, and files that take no more of them.
 #include "io/write_history.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The summary as a table of toml++, which knows how to print JSON, all but null.
 #include "io/write_summary.hpp"
 
 #include <toml++/toml.h>

@@ -1,3 +1,4 @@
+// The elements of XDMF that the readers of ParaView 5.11 and 5.13 all understand.
 #include "io/xdmf.hpp"
 
 #include <fmt/format.h>
