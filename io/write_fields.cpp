@@ -99,7 +99,7 @@ void write_mesh(hid_t vtkhdf, const Mesh& mesh) {
   for (std::size_t i = 0; i <= m; ++i) offsets[i] = int64_t(4 * i);
   hdf5::write<int64_t>(vtkhdf, "Connectivity", connectivity, {4 * m});
   hdf5::write<int64_t>(vtkhdf, "Offsets", offsets, {m + 1});
-  hdf5::write<std::uint8_t>(vtkhdf, "Types", std::vector<std::uint8_t>(m, 10), {m});   // 10: VTK_TETRA
+  hdf5::write<std::uint8_t>(vtkhdf, "Types", std::vector<std::uint8_t>(m, 10), {m});  // 10: VTK_TETRA
 
   const Handle cell_data = hdf5::create_group(vtkhdf, "CellData");
   hdf5::write<std::int32_t>(cell_data, "region", mesh.tet_region, {m});
@@ -108,7 +108,7 @@ void write_mesh(hid_t vtkhdf, const Mesh& mesh) {
 
 /// The datasets of VTKHDF that every step adds one row to, apart from the offsets of the fields: all zero but for the time, as the mesh does not change.
 constexpr std::array step_rows{"PartOffsets", "PointOffsets", "CellDataOffsets/region"};
-constexpr std::array step_columns{"CellOffsets", "ConnectivityIdOffsets"};                // of shape [steps, 1]
+constexpr std::array step_columns{"CellOffsets", "ConnectivityIdOffsets"};  // of shape [steps, 1]
 constexpr hsize_t steps_in_chunk = 256;
 
 void create_series(hid_t vtkhdf, const std::vector<FieldName>& fields, std::size_t nodes, int compress) {
@@ -140,7 +140,8 @@ void append_step(hid_t file, const std::vector<FieldName>& fields, std::size_t n
 
 }  // namespace
 
-FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes, int compress)
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes,
+                         int compress)
     : path_(folder / "run.vtkhdf"), fields_(std::move(fields)), nodes_(mesh.X.size()), tets_(mesh.tets.size()), compress_(compress) {
   hdf5::be_quiet();
   try {
@@ -163,8 +164,8 @@ void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get
   try {
     append(t, step, breakdown, get);
   } catch (const hdf5::Error& error) {
-    throw std::runtime_error(fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable", path_.string(), frames_, t,
-                                         error.what()));
+    throw std::runtime_error(fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable", path_.string(),
+                                         frames_, t, error.what()));
   }
   xdmf_frames_ += xdmf_frame({path_.filename().string(), nodes_, tets_}, fields_, frames_, t, breakdown);
   ++frames_;
@@ -177,7 +178,7 @@ void FieldWriter::append(double t, long step, bool breakdown, const GetField& ge
   Handle file = open_for_append(path_, patience_);
   const std::string name = fmt::format("/frames/{:06}", frames_);
   {
-    const bool again = hdf5::has_link(file, name);   // left by a failed attempt; kept, since removing a name can make HDF5 move the heap of names
+    const bool again = hdf5::has_link(file, name);  // left by a failed attempt; kept, since removing a name can make HDF5 move the heap of names
     const Handle group = again ? hdf5::open_group(file, name) : hdf5::create_group(file, name);
     hdf5::set_attribute<double>(group, "time", t);
     hdf5::set_attribute<int64_t>(group, "step", step);

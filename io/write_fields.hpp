@@ -18,7 +18,7 @@
 
 namespace nanson {
 
-inline constexpr int most_patience = 200;            // [ms] a frame waits for a reader to let go of the file
+inline constexpr int most_patience = 200;  // [ms] a frame waits for a reader to let go of the file
 
 class FieldWriter {
  public:
@@ -42,9 +42,9 @@ class FieldWriter {
   std::vector<FieldName> fields_;
   std::size_t nodes_, tets_;
   int compress_;
-  int patience_ = most_patience;                     // [ms] to wait for another program that holds the file
+  int patience_ = most_patience;  // [ms] to wait for another program that holds the file
   std::size_t frames_ = 0;
-  std::string xdmf_frames_;                          // the text of the frames so far, so that a frame costs its own text only
+  std::string xdmf_frames_;  // the text of the frames so far, so that a frame costs its own text only
 };
 
 }  // namespace nanson
