@@ -29,7 +29,7 @@ std::map<std::string, double> cube_errors(const CubeCase& c) {
   return exact_errors(s);
 }
 
-std::string name(const CubeCase& c) { return fmt::format("{}_{}_{}_{}_{}", word(c.split), word(c.formulation), word(c.correction), word(c.J), c.n); }
+std::string label(const CubeCase& c) { return fmt::format("{}_{}_{}_{}_{}", word(c.split), word(c.formulation), word(c.correction), word(c.J), c.n); }
 
 /// L1 and L2 errors of p1 and P11 relative to the exact field at t [1e-4]: method.md, sections 13 and 14. A negative figure is not known.
 struct Figures {
@@ -57,9 +57,9 @@ constexpr Figures prototype[] = {
 TEST(CubeOrder, ErrorsAreThoseOfThePrototype) {
   for (const Figures& f : prototype) {
     const auto e = cube_errors(f.cube);
-    RecordProperty(name(f.cube), fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", 1e4 * e.at("p1_L1"), 1e4 * e.at("p1_L2"), 1e4 * e.at("P11_L1"), 1e4 * e.at("P11_L2")));
+    RecordProperty(label(f.cube), fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", 1e4 * e.at("p1_L1"), 1e4 * e.at("p1_L2"), 1e4 * e.at("P11_L1"), 1e4 * e.at("P11_L2")));
     const std::pair<const char*, double> figures[] = {{"p1_L1", f.p1_L1}, {"p1_L2", f.p1_L2}, {"P11_L1", f.P11_L1}, {"P11_L2", f.P11_L2}};
-    for (const auto& [key, wanted] : figures) EXPECT_TRUE(wanted < 0 || std::abs(1e4 * e.at(key) / wanted - 1) < 0.04) << name(f.cube) << ' ' << key << " = " << e.at(key);
+    for (const auto& [key, wanted] : figures) EXPECT_TRUE(wanted < 0 || std::abs(1e4 * e.at(key) / wanted - 1) < 0.04) << label(f.cube) << ' ' << key << " = " << e.at(key);
   }
 }
 
@@ -80,9 +80,9 @@ TEST(CubeOrder, ErrorsFallAtLeastAtTheseRates) {
     fine.n *= 2;
     const auto e = cube_errors(r.coarse), f = cube_errors(fine);
     const double p1 = std::log2(e.at("p1_L2") / f.at("p1_L2")), P11 = std::log2(e.at("P11_L2") / f.at("P11_L2"));
-    RecordProperty(name(r.coarse), fmt::format("p1 {:.2f}, P11 {:.2f}", p1, P11));
-    EXPECT_GT(p1, r.p1) << name(r.coarse);
-    EXPECT_GT(P11, r.P11) << name(r.coarse);
+    RecordProperty(label(r.coarse), fmt::format("p1 {:.2f}, P11 {:.2f}", p1, P11));
+    EXPECT_GT(p1, r.p1) << label(r.coarse);
+    EXPECT_GT(P11, r.P11) << label(r.coarse);
   }
 }
 
