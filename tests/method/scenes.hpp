@@ -177,8 +177,8 @@ inline Rates rates(Simulation& s) {
   Aligned<double> H(u.H[0].size(), 0.0);
   Coefficients k = s.coefficients;
   k.old_weight = 0, k.stage_weight = 0, k.dt = 1, k.acceleration = s.acceleration.data();
-  const Rows rows{u.X.data(), u.U[0].data(), u.U[0].data(), u.H[0].data(), u.H[0].data(), u.W[u.now].data(), u.PH[u.now].data(), out.G.data(), u.Q.data(),
-                  u.GP.data(), u.loads.data(), out.U.data(), H.data(), nullptr, nullptr};
+  Rows rows = stage_rows(u, 0, 0);
+  rows.G = out.G.data(), rows.U_new = out.U.data(), rows.H_new = H.data(), rows.W_new = nullptr, rows.PH_new = nullptr;
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
