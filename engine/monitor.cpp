@@ -124,7 +124,8 @@ void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
       const Part& part = s.order.parts[static_cast<std::size_t>(p)];
       double sum = 0;
       for (int n = part.node_begin; n < part.node_end; ++n) {
-        const double* v = rows.W + row::W * n;  // zero in padding
+        if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;  // padding falls too
+        const double* v = rows.W + row::W * n;
         sum += s.coefficients.material.rho / rows.X[row::X * n + 3] * (g[0] * v[0] + g[1] * v[1] + g[2] * v[2]);
       }
       return sum;
