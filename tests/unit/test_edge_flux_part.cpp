@@ -33,7 +33,10 @@ std::vector<Combination> combinations() {
           for (const PressureJump jump : {PressureJump::scalar, PressureJump::tensor}) {
             if (reconstruction == Reconstruction::constant && correction != FluxCorrection::none) continue;
             if (formulation == Formulation::pF && jump == PressureJump::tensor) continue;
-            all.push_back({{formulation, jump, reconstruction, correction, BoundaryFlux::adjoint, metric}});
+            PhysicsSpec physics;
+            physics.reconstruction = reconstruction, physics.flux_correction = correction, physics.upwind_metric = metric;
+            physics.formulation = formulation, physics.pressure_jump = jump;
+            all.push_back({physics});
           }
   return all;
 }
