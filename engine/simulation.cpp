@@ -28,6 +28,7 @@ Coefficients coefficients_of(const Scene& scene) {
   k.material = constants_of(scene.material);
   k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
   k.adjoint = scene.physics.boundary_flux == BoundaryFlux::adjoint;
+  k.sweeps_J = scene.physics.stabilisation == Stabilisation::jst;
   k.deformed_metric = scene.physics.upwind_metric == UpwindMetric::deformed;
   for (int i = 0; i < 3; ++i) k.g[i] = scene.body_force[i];
   return k;

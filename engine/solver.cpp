@@ -43,11 +43,11 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
   Rows rows{u.X.data(), u.U[0].data(), u.U[from].data(), u.H[0].data(), u.H[from].data(), u.W[u.now].data(), u.PH[u.now].data(), u.G.data(), u.Q.data(),
-            u.GP.data(), u.loads.data(), u.U[to].data(), u.H[to].data(), u.W[next].data(), u.PH[next].data()};
+            u.GP.data(), u.L.data(), u.lambda.data(), u.loads.data(), u.U[to].data(), u.H[to].data(), u.W[next].data(), u.PH[next].data()};
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  const bool linear = s.scene->physics.reconstruction == Reconstruction::linear;
+  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant;
 
   if (!s.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
