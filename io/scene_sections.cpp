@@ -107,14 +107,13 @@ void read_physics(Table& t, PhysicsSpec& p) {
 
 void read_initial(Table& t, InitialSpec& s) {
   using enum InitialField;
-  const bool known = read_kind<InitialField>(t, "field", s.field, false,
-                                             {{velocity, {"v"}},
-                                              {rotation, {"omega", "centre"}},
-                                              {twist, {"omega", "height"}},
-                                              {plate_mode, {"amplitude", "omega", "B"}},
-                                              {standing_wave, {"amplitude", "J"}},
-                                              {plane_wave, {"amplitude", "length", "direction", "J"}}});
-  if (!known) return;
+  read_kind<InitialField>(t, "field", s.field, false,
+                          {{velocity, {"v"}},
+                           {rotation, {"omega", "centre"}},
+                           {twist, {"omega", "height"}},
+                           {plate_mode, {"amplitude", "omega", "B"}},
+                           {standing_wave, {"amplitude", "J"}},
+                           {plane_wave, {"amplitude", "length", "direction", "J"}}});
   if (s.field == velocity) t.require("v", s.v);
   if (s.field == rotation) read_rotation(t, s);
   if (s.field == twist) {
