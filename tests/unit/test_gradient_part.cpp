@@ -54,7 +54,10 @@ TEST_P(Gradients, OfLinearFieldsAreExactAtEveryNode) {
     for (double& x : s) x = uniform(random, -1, 1);
   for (double& x : value) x = uniform(random, -1, 1);
   for (int n = 0; n < order.nodes; ++n)
-    for (int i = 0; i < 4; ++i) W[row::W * order.row_of[n] + i] = value[i] + slope[0][i] * mesh.X[n][0] + slope[1][i] * mesh.X[n][1] + slope[2][i] * mesh.X[n][2];
+    for (int i = 0; i < 4; ++i) {
+      W[row::W * order.row_of[n] + i] = value[i];
+      for (int I = 0; I < 3; ++I) W[row::W * order.row_of[n] + i] += slope[I][i] * mesh.X[n][I];
+    }
   run(PressureJump::scalar, FluxCorrection::none);
   for (int n = 0; n < order.nodes; ++n)
     for (int I = 0; I < 3; ++I)
