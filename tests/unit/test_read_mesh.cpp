@@ -364,7 +364,7 @@ TEST(LoadMesh, ReadsAndChecksTheFile) {
 }
 
 TEST(LoadMesh, ReadsTheMeshesThatComeWithTheProgram) {
-  const auto meshes = std::filesystem::path(__FILE__).parent_path() / "../../configs/meshes";
+  const auto meshes = std::filesystem::path(NANSON_SOURCE_DIR) / "configs/meshes";
   const auto names = [&](const std::string& file) {
     MeshSpec spec;
     spec.source = MeshSource::file;

@@ -184,10 +184,7 @@ TEST(Scene, FeaturesThatAreNotBuiltAreUnknown) {
   });
   expect_each_refused(column_scene, {
       {"upwind_metric   = \"paper\"", "description = \"total\"", "scene.toml:23:1: physics.description = \"total\": unknown key"},
-      {"upwind_metric   = \"paper\"", "stabilisation = \"upwind\"", "scene.toml:23:1: physics.stabilisation = \"upwind\": unknown key"},
-      {"upwind_metric   = \"paper\"", "entropy_fix = \"none\"", "scene.toml:23:1: physics.entropy_fix = \"none\": unknown key"},
       {"upwind_metric   = \"paper\"", "keep_angular_momentum = false", "scene.toml:23:1: physics.keep_angular_momentum = false: unknown key"},
-      {"= \"linear\"", "= \"limited\"", "scene.toml:20:19: physics.reconstruction = \"limited\": unknown word, allowed: constant | linear"},
       {"\"pFHJ\"", "\"pFp\"", "scene.toml:18:19: physics.formulation = \"pFp\": unknown word, did you mean \"pF\"? allowed: pF | pFJ | pFHJ"},
       {"\"twist\"", "\"punch\"", "scene.toml:26:10: initial.field = \"punch\": unknown word"},
       {"\"twist\"", "\"manufactured\"", "scene.toml:26:10: initial.field = \"manufactured\": unknown word"},
