@@ -24,6 +24,8 @@ struct Ledger {
   Vec3 angular_impulse{};                 // [N m s] of the same, TVD-RK2 only
   double external_work = 0, dissipated = 0;   // [J] monitor.energy
   double angular_momentum_work = 0;       // [J] of the angular momentum projection
+  double largest_work = 0;                // [J] largest |external_work| so far
+  long balanced_step = 0;                 // last history row at which energy had not grown
 };
 
 struct Breakdown {
