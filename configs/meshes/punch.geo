@@ -1,6 +1,6 @@
 // Punch block: 1 x 1 x 0.5 m with 3 x 3 through holes along z of diameter 0.2 m, centres at -0.3, 0 and 0.3 m (Hassan et al. 2019, section 6.6).
 // Faces xmin xmax ymin ymax zmin zmax and holes; region block. A larger mesh: gmsh -3 punch.geo -format msh41 -setnumber size 0.04 -o punch_fine.msh
-// The small punch.msh was made by: gmsh -3 punch.geo -format msh41 -nt 1 -o punch.msh
+// At the default size the holes have eight sides. The small punch.msh was made by: gmsh -3 punch.geo -format msh41 -nt 1 -o punch.msh
 SetFactory("OpenCASCADE");
 DefineConstant[ size = 0.085 ];  // [m] of an edge
 half = 0.5;                      // [m]

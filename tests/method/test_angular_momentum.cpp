@@ -139,7 +139,7 @@ TEST(AngularMomentum, TheEnergyAuditClosesWithThePowerOfTheProjection) {
       if (loaded) scene.boundary[4].velocity = {0, 0, 0}, scene.initial.field = InitialField::twist, scene.initial.twist_omega = 0.9, scene.initial.height = 2;
       double residual[2];
       for (int half = 0; half < 2; ++half) {
-        scene.time.cfl = half ? 0.15 : 0.3;
+        scene.time.cfl = (loaded ? 0.25 : 0.3) / (half ? 2 : 1);  // loads that start at once are harder
         Trial kept(scene);
         residual[half] = energy_closure(kept.s);
         const double work = std::abs(kept.s.ledger.angular_momentum_work) / kept.s.ledger.initial_energy;
