@@ -124,7 +124,7 @@ void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
     power += sum_over_parts(s, [&](int p) {
       const Part& part = s.order.parts[static_cast<std::size_t>(p)];
       double sum = 0;
-      for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {  // padding falls as well
+      for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {  // padding falls too
         const double* v = rows.W + row::W * n;
         sum += s.coefficients.material.rho / rows.X[row::X * n + 3] * (g[0] * v[0] + g[1] * v[1] + g[2] * v[2]);
       }

@@ -1,6 +1,7 @@
 // Bitwise the same result for every number of threads and for every repetition.
 #include <gtest/gtest.h>
 
+#include <map>
 #include <set>
 
 #include "scenes.hpp"
@@ -47,6 +48,43 @@ TEST(Determinism, RepetitionChangesNoBit) {
     Scene scene = loaded_bar(9);
     scene.physics.flux_correction = correction;
     EXPECT_EQ(outcome(Problem(scene), 2), outcome(Problem(scene), 2));
+  }
+}
+
+/// What one part takes from an edge, the other gives: bitwise. The rows are random.
+TEST(Determinism, FluxOfACutEdgeIsBitwiseOppositeInItsTwoParts) {
+  Problem problem(free_bar(9));
+  for (const PhysicsSpec& physics : every_physics()) {
+    problem.scene.physics = physics;
+    Simulation s = problem.start();
+    State& u = s.state;
+    std::mt19937_64 random(2);
+    std::uniform_real_distribution<double> uniform(-1, 1);
+    for (int n : real_rows(s)) {
+      for (int i = 0; i < 4; ++i) u.W[u.now][row::W * n + i] = uniform(random);
+      for (int m = 0; m < 18; ++m) u.PH[u.now][row::PH * n + 4 * (m / 3) + m % 3] = uniform(random);
+    }
+    Aligned<double> G(row::G * s.order.rows, 0.0);
+    Rows rows{};
+    rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = G.data(), rows.Q = u.Q.data(), rows.GP = u.GP.data();
+    for (const Part& part : s.order.parts) s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+    const int width = physics.flux_correction == FluxCorrection::none ? 4 : 8;
+    std::map<std::pair<int, int>, std::array<double, 4>> flux;
+    int pairs = 0, unequal = 0;
+    for (const Part& part : s.order.parts) {
+      const Scratch scratch{s.scratch[0].data(), nullptr, nullptr};
+      s.functions.edge_flux(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients, scratch);
+      for (int e = part.edge_begin; e < part.edge_end; ++e) {
+        const double* f = scratch.edge + width * (e - part.edge_begin);
+        flux[{s.order.a[e], s.order.b[e]}] = {f[0], f[1], f[2], f[3]};
+        const auto other = flux.find({s.order.b[e], s.order.a[e]});
+        if (other == flux.end()) continue;
+        ++pairs;
+        for (int i = 0; i < 4; ++i) unequal += f[i] != -other->second[i];
+      }
+    }
+    EXPECT_GT(pairs, 100);
+    EXPECT_EQ(unequal, 0) << name(physics);
   }
 }
 
