@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/angular_momentum.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
 #include "engine/time_function.hpp"
@@ -36,17 +37,22 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
   return sum;
 }
 
+bool broken(const Simulation& s) {
+  return std::any_of(s.reports.begin(), s.reports.end(), [](const PartReport& r) { return r.broken; });
+}
+
 /// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
 void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   State& u = s.state;
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1;
   Coefficients k = s.coefficients;
-  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
+  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt;
   const Rows rows = stage_rows(u, from, to);
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant;
+  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant, keeps = s.scene->physics.keep_angular_momentum;
+  const double* arms = number == 0 ? rows.U_stage : rows.U_new;  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
 
   if (!s.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
@@ -64,9 +70,13 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
       }
       s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
+      if (keeps) sum_moments(s, rows, arms, p, scratch);
       s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
     });
   });
+  if (keeps && !broken(s))
+    s.clock.time("keep_angular_momentum", [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
+  book_stage(s, arms, rk.mean, number == 0);
   u.now = 1 - u.now;
 }
 
@@ -76,10 +86,6 @@ void prescribe(Simulation& s, std::vector<double>& acceleration) {
     const TimeFunction& f = s.boundary.conditions[i].time;
     acceleration[i] = s.boundary.conditions[i].kind == BoundaryKind::velocity ? (value_at(f, s.t + s.dt) - value_at(f, s.t)) / s.dt : 0.0;
   }
-}
-
-bool broken(const Simulation& s) {
-  return std::any_of(s.reports.begin(), s.reports.end(), [](const PartReport& r) { return r.broken; });
 }
 
 /// The step for the rest of the way: at most 5 % larger than the last, and `end` is hit by sharing the last two steps.
@@ -133,7 +139,6 @@ void advance(Simulation& s) {
     }
   }
   s.t += s.dt, ++s.step;
-  book_step(s);
 }
 
 double allowed_step(const Simulation& s) {
