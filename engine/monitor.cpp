@@ -14,7 +14,7 @@ namespace {
 Rows present_rows(Simulation& s) {
   State& u = s.state;
   Rows r{};
-  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data();
+  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data(), r.plastic = u.plastic.data();
   return r;
 }
 
@@ -133,6 +133,10 @@ void book_step(Simulation& s) {
     for (int m = 0; m < h.count; ++m)
       for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * R[m] * h.d[m][k];
     if (s.scene->monitor.energy) s.ledger.external_work += s.dt * R[3];
+  }
+  if (s.scene->monitor.energy) {
+    for (std::size_t p = 0; p < s.reports.size(); ++p) s.part_sums[p] = s.reports[p].plastic_work;
+    s.ledger.dissipated += tree_sum(s.part_sums);
   }
   for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * s.ledger.mass * s.scene->body_force[k];
 }

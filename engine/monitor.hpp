@@ -35,7 +35,7 @@ Vec3 reaction(const Simulation& s, int face);
 
 /// One stage's share of dissipation and external work, from the rows of the stage before its update.
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
-/// Impulse and work of supports and body force over the step.
+/// Impulse and work of supports and body force over the step, and its plastic work.
 void book_step(Simulation& s);
 
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
