@@ -68,7 +68,7 @@ Momenta momenta(Simulation& s) {
 }
 
 Extrema extrema(const Simulation& s) {
-  Extrema e{1e300, -1e300, 1e300, -1e300, 0};
+  Extrema e{1e300, -1e300, 1e300, -1e300, 0, 0};
   const bool evolves_J = s.scene->physics.formulation != Formulation::pF;
   for (int n = 0; n < s.order.rows; ++n) {
     if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
@@ -77,6 +77,7 @@ Extrema extrema(const Simulation& s) {
     e.min_detF = std::min(e.min_detF, d), e.max_detF = std::max(e.max_detF, d);
     e.min_J = std::min(e.min_J, J), e.max_J = std::max(e.max_J, J);
     e.max_speed = std::max(e.max_speed, norm3(U[0], U[1], U[2]));
+    if (!s.state.plastic.empty()) e.max_plastic_strain = std::max(e.max_plastic_strain, s.state.plastic[static_cast<std::size_t>(row::plastic * n + 3)]);
   }
   return e;
 }

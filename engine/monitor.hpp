@@ -16,6 +16,7 @@ struct Momenta {
 struct Extrema {
   double min_detF = 0, max_detF = 0, min_J = 0, max_J = 0;   // [-]
   double max_speed = 0;                                      // [m/s]
+  double max_plastic_strain = 0;                             // [-] hencky_j2
 };
 
 Energies energies(Simulation& s);

@@ -45,11 +45,8 @@ TEST(Cylinder, FacesLieOnTheirSurfaces) {
   for (const Face& face : mesh.faces)
     for (const int n : face.nodes) {
       const Vec3& X = mesh.X[static_cast<std::size_t>(n)];
-      if (face.patch == 0) EXPECT_EQ(X[0], 0);
-      if (face.patch == 1) EXPECT_EQ(X[1], 0);
-      if (face.patch == 2) EXPECT_EQ(X[2], 0);
-      if (face.patch == 3) EXPECT_EQ(X[2], length);
-      if (face.patch == 4) EXPECT_NEAR(std::hypot(X[0], X[1]), radius, 1e-14);
+      const double off[] = {X[0], X[1], X[2], X[2] - length, std::hypot(X[0], X[1]) - radius};
+      EXPECT_NEAR(off[face.patch], 0, face.patch < 4 ? 0 : 1e-14);
     }
 }
 
@@ -96,8 +93,11 @@ TEST(Cylinder, IsSymmetricAboutItsDiagonal) {
     for (const auto& t : mesh.tets)
       for (const int a : t)
         for (const int b : t)
-          if (!swapped) edges.insert({at(a, false), at(b, false)});
-          else EXPECT_TRUE(edges.contains({at(a, true), at(b, true)}));
+          if (swapped) {
+            EXPECT_TRUE(edges.contains({at(a, true), at(b, true)}));
+          } else {
+            edges.insert({at(a, false), at(b, false)});
+          }
 }
 
 TEST(Scene, CylinderIsReadAndItsCellsAreChecked) {

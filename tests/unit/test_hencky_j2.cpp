@@ -177,8 +177,11 @@ TEST(HenckyJ2, ReturnsToTheTableAcrossItsKinks) {
       PlasticState<double> z = virgin();
       z.eps_p = start;
       const Answer a = evaluate(stretch(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)), z, m);
-      if (3 * m.mu * e > curve(start)) EXPECT_NEAR(a.mapping.q / curve(a.state.eps_p), 1, 1e-9) << start << " " << e;
-      else EXPECT_EQ(a.state.eps_p, start);
+      if (3 * m.mu * e > curve(start)) {
+        EXPECT_NEAR(a.mapping.q / curve(a.state.eps_p), 1, 1e-9) << start << " " << e;
+      } else {
+        EXPECT_EQ(a.state.eps_p, start);
+      }
     }
 }
 
