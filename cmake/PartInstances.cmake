@@ -49,7 +49,7 @@ foreach(formulation pF pFJ pFHJ)
     add_instance(accumulate_update_${formulation}_${corrected} accumulate_update_part.hpp
       "template void accumulate_update_part<Formulation::${formulation}, ${corrected}>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
   endforeach()
-  foreach(material linear_elastic:quadratic:F neo_hookean:quadratic:F neo_hookean:barrier:F neo_hookean:quadratic:J neo_hookean:barrier:J
+  foreach(material linear_elastic:quadratic:F hencky_j2:quadratic:F neo_hookean:quadratic:F neo_hookean:barrier:F neo_hookean:quadratic:J neo_hookean:barrier:J
           mooney_rivlin:quadratic:F mooney_rivlin:barrier:F mooney_rivlin:quadratic:J mooney_rivlin:barrier:J)
     string(REPLACE ":" ";" triple ${material})
     list(GET triple 0 law)

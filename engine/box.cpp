@@ -1,17 +1,10 @@
 // The built-in box: cells of a regular grid, six tets each (Kuhn's split along a main diagonal of the cell).
 #include <random>
-#include <utility>
 
-#include "engine/mesh.hpp"
+#include "engine/cell_split.hpp"
 
 namespace nanson {
 namespace {
-
-/// Corners of a cell are three bits, x first: 0 is the lower corner, 7 the upper. A tet is a path from 0 to 7 along three
-/// edges; in the last three the two middle corners are swapped, which makes them right-handed.
-constexpr std::array<std::array<int, 4>, 6> kuhn_tets{{{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}}};
-
-constexpr int odd_bits(int bits) { return (bits ^ bits >> 1 ^ bits >> 2) & 1; }
 
 struct Grid {
   std::array<int, 3> cells;
@@ -24,7 +17,7 @@ struct Grid {
   /// Directions in which the split of this cell is mirrored. Neighbours in x differ in the bit of x only, which leaves
   /// the diagonals of their common face alone: the mesh conforms for any number of cells.
   int mirror(const std::array<int, 3>& cell) const {
-    return split == Split::alternating ? (cell[0] & 1) | (cell[1] & 1) << 1 | (cell[2] & 1) << 2 : 0;
+    return split == Split::alternating ? parity_mirror(cell[0], cell[1], cell[2]) : 0;
   }
 };
 
@@ -50,25 +43,10 @@ std::vector<Vec3> grid_nodes(const MeshSpec& spec) {
   return X;
 }
 
-void add_tets(const Grid& grid, const std::array<int, 3>& cell, RawMesh& mesh) {
-  const int mirror = grid.mirror(cell);
-  for (const auto& path : kuhn_tets) {
-    std::array<int, 4> tet;
-    for (int v = 0; v < 4; ++v) tet[v] = grid.corner(cell, path[v] ^ mirror);
-    if (odd_bits(mirror)) std::swap(tet[1], tet[2]);
-    mesh.tets.push_back(tet);
-  }
-}
-
-/// The two triangles of a cell on face `side` (0 lower, 1 upper) of direction `axis`: the diagonal joins the cell's main diagonal.
-void add_triangles(const Grid& grid, const std::array<int, 3>& cell, int axis, int side, RawMesh& mesh) {
-  const int mirror = grid.mirror(cell);
-  const int base = (side << axis) ^ (mirror & 1 << axis), b = 1 << (axis + 1) % 3, c = 1 << (axis + 2) % 3;
-  for (const int middle : {b, c}) {
-    mesh.triangles.push_back({grid.corner(cell, base ^ mirror), grid.corner(cell, (base | middle) ^ mirror),
-                              grid.corner(cell, (base | b | c) ^ mirror)});
-    mesh.triangle_patch.push_back(2 * axis + side);
-  }
+Cell corners_of(const Grid& grid, const std::array<int, 3>& cell) {
+  Cell corners;
+  for (int bits = 0; bits < 8; ++bits) corners[static_cast<std::size_t>(bits)] = grid.corner(cell, bits);
+  return corners;
 }
 
 }  // namespace
@@ -84,10 +62,12 @@ RawMesh make_box(const MeshSpec& spec) {
     for (int j = 0; j < spec.cells[1]; ++j)
       for (int i = 0; i < spec.cells[0]; ++i) {
         const std::array<int, 3> cell{i, j, k};
-        add_tets(grid, cell, mesh);
+        const Cell corners = corners_of(grid, cell);
+        const int mirror = grid.mirror(cell);
+        add_tets(corners, mirror, mesh);
         for (int axis = 0; axis < 3; ++axis) {
-          if (cell[axis] == 0) add_triangles(grid, cell, axis, 0, mesh);
-          if (cell[axis] == spec.cells[axis] - 1) add_triangles(grid, cell, axis, 1, mesh);
+          if (cell[axis] == 0) add_triangles(corners, mirror, axis, 0, 2 * axis, mesh);
+          if (cell[axis] == spec.cells[axis] - 1) add_triangles(corners, mirror, axis, 1, 2 * axis + 1, mesh);
         }
       }
   mesh.tet_region.assign(mesh.tets.size(), 0);

@@ -17,6 +17,10 @@ const double* PH_row(const Simulation& s, int node) {
   return &s.state.PH[s.state.now][static_cast<std::size_t>(row::PH * s.order.row_of[static_cast<std::size_t>(node)])];
 }
 
+double plastic_strain(const Simulation& s, int node) {
+  return s.state.plastic[static_cast<std::size_t>(row::plastic * s.order.row_of[static_cast<std::size_t>(node)] + 3)];
+}
+
 Tensor<double> F_of(const double* U) {
   Tensor<double> F;
   for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
@@ -66,6 +70,7 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
   if (name == "det_F") out[0] = det_F();
   if (name == "J") out[0] = s.scene->physics.formulation == Formulation::pF ? det_F() : U[3];
   if (name == "pressure") { const auto a = cauchy(s, node); out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3; }
+  if (name == "plastic_strain") out[0] = plastic_strain(s, node);
   if (name == "von_mises") out[0] = von_mises(cauchy(s, node));
 }
 
@@ -147,7 +152,9 @@ std::string state_hash(const Simulation& s) {
   };
   for (int n = 0; n < s.order.nodes; ++n) {
     add(U_row(s, n), row::U);
-    if (!s.state.H[0].empty()) add(&s.state.H[0][static_cast<std::size_t>(row::H * s.order.row_of[static_cast<std::size_t>(n)])], row::H);
+    const auto r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
+    if (!s.state.H[0].empty()) add(&s.state.H[0][row::H * r], row::H);
+    if (!s.state.plastic.empty()) add(&s.state.plastic[row::plastic * r], row::plastic);
   }
   return fmt::format("{:016x}", h);
 }

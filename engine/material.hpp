@@ -7,6 +7,22 @@
 
 namespace nanson {
 
+/// The hardening curve piece by piece, constant beyond the last point of a table; without a table one piece that never ends.
+inline Hardening hardening_of(const MaterialSpec& m) {
+  Hardening h;
+  if (m.law != Law::hencky_j2) return h;
+  if (m.hardening.empty()) {
+    h.count = 1, h.tau_y[0] = m.yield_stress, h.slope[0] = m.hardening_modulus;
+    return h;
+  }
+  for (const auto& [eps_p, tau_y] : m.hardening) {
+    const int i = h.count++;
+    h.eps_p[i] = eps_p, h.tau_y[i] = tau_y;
+    if (i > 0) h.slope[i - 1] = (tau_y - h.tau_y[i - 1]) / (eps_p - h.eps_p[i - 1]);
+  }
+  return h;
+}
+
 /// mu = E/(2(1+nu)), kappa = E/(3(1-2nu)), 2 zeta + 3 sqrt(3) xi = mu; c_p, c_s at F = I (paper, eq. 39).
 inline MaterialConstants constants_of(const MaterialSpec& m) {
   MaterialConstants c;
@@ -17,6 +33,7 @@ inline MaterialConstants constants_of(const MaterialSpec& m) {
   c.zeta = 0.5 * (c.mu - 3 * std::sqrt(3.0) * c.xi);
   c.cp = std::sqrt((c.kappa + 4.0 / 3.0 * c.mu) / c.rho);
   c.cs = std::sqrt(c.mu / c.rho);
+  c.hardening = hardening_of(m);
   return c;
 }
 

@@ -44,6 +44,10 @@ inline constexpr std::array<std::array<int, 3>, 4> tet_faces{{{1, 2, 3}, {0, 3, 
 /// Six tets a cell; faces xmin xmax ymin ymax zmin zmax, one region "box".
 RawMesh make_box(const MeshSpec& spec);
 
+/// A quarter of a circular cylinder, its axis from the origin along Z: a core of m x m cells, m half the tangential ones, in a ring of radial - m layers. The split
+/// is the box's alternating one. Faces x0 y0 zmin zmax side, one region "cylinder". cells: tangential even, radial above m.
+RawMesh make_cylinder(const MeshSpec& spec);
+
 /// Orients, finds the boundary and checks. Errors (named by index from 0, each kind at most five times) are appended; the mesh is
 /// valid when none was. Named triangles between two tets are dropped: gmsh names interfaces of regions too.
 Mesh finish_mesh(RawMesh raw, std::vector<std::string>& errors);

@@ -15,7 +15,7 @@ namespace {
 Rows present_rows(Simulation& s) {
   State& u = s.state;
   Rows r{};
-  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data();
+  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data(), r.plastic = u.plastic.data();
   return r;
 }
 
@@ -73,7 +73,7 @@ Momenta momenta(Simulation& s) {
 }
 
 Extrema extrema(const Simulation& s) {
-  Extrema e{1e300, -1e300, 1e300, -1e300, 0};
+  Extrema e{1e300, -1e300, 1e300, -1e300, 0, 0};
   const bool evolves_J = s.scene->physics.formulation != Formulation::pF;
   for (int n = 0; n < s.order.rows; ++n) {
     if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
@@ -82,6 +82,7 @@ Extrema extrema(const Simulation& s) {
     e.min_detF = std::min(e.min_detF, d), e.max_detF = std::max(e.max_detF, d);
     e.min_J = std::min(e.min_J, J), e.max_J = std::max(e.max_J, J);
     e.max_speed = std::max(e.max_speed, norm3(U[0], U[1], U[2]));
+    if (!s.state.plastic.empty()) e.max_plastic_strain = std::max(e.max_plastic_strain, s.state.plastic[static_cast<std::size_t>(row::plastic * n + 3)]);
   }
   return e;
 }
@@ -157,6 +158,11 @@ void book_stage(Simulation& s, const double* arms, double mean, bool first) {
   if (s.scene->time.integrator != Integrator::tvd_rk2) return;
   const Vec3 torque = external_torque(s, arms, {});
   for (int k = 0; k < 3; ++k) l.angular_impulse[k] += dt * torque[k];
+}
+
+void book_plastic_work(Simulation& s) {
+  for (std::size_t p = 0; p < s.reports.size(); ++p) s.part_sums[p] = s.reports[p].plastic_work;
+  s.ledger.dissipated += tree_sum(s.part_sums);
 }
 
 Vec3 reaction(const Simulation& s, int face) {

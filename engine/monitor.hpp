@@ -16,6 +16,7 @@ struct Momenta {
 struct Extrema {
   double min_detF = 0, max_detF = 0, min_J = 0, max_J = 0;   // [-]
   double max_speed = 0;                                      // [m/s]
+  double max_plastic_strain = 0;                             // [-] hencky_j2
 };
 
 Energies energies(Simulation& s);
@@ -38,6 +39,8 @@ Vec3 reaction(const Simulation& s, int face);
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
 /// After a stage: its share `mean` in the mean reactions, in impulse and work of supports and body force, and in the angular impulse of all that acts.
 void book_stage(Simulation& s, const double* arms, double mean, bool first);
+/// After a step: the plastic work of its new state.
+void book_plastic_work(Simulation& s);
 
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
 Breakdown locate_breakdown(Simulation& s, int stage);

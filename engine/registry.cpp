@@ -79,8 +79,8 @@ void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec
     with(m.volumetric, [&]<Volumetric volumetric>() {
       with(m.isochoric, [&]<Isochoric isochoric>() {
         with(formulation, [&]<Formulation form>() {
-          constexpr bool linear = law == Law::linear_elastic;
-          if constexpr (linear && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) return;
+          constexpr bool own_energy = law == Law::linear_elastic || law == Law::hencky_j2;
+          if constexpr (own_energy && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) return;
           else if constexpr (form == Formulation::pF && isochoric != Isochoric::F) return;
           else {
             f.stress = stress_part<law, volumetric, isochoric, form>;
@@ -105,7 +105,7 @@ PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec
   if (!f.edge_flux)
     throw std::invalid_argument(what_is_built);
   if (!f.stress)
-    throw std::invalid_argument("this material is not built: linear_elastic takes volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ");
+    throw std::invalid_argument("this material is not built: linear_elastic and hencky_j2 take volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ");
   return f;
 }
 

@@ -13,8 +13,9 @@ namespace nanson {
 
 using Vec3 = std::array<double, 3>;
 
-enum class MeshSource { box, file };
+enum class MeshSource { box, cylinder, file };
 enum class Split { alternating, kuhn };
+enum class Sector { quarter };
 enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave, punch };
 enum class InitialJ { linear, det };               // J(0) = 1 + tr(F - I) | det F
 enum class BoundaryKind { fixed, free, symmetric, skew_symmetric, traction, pressure, velocity };
@@ -23,8 +24,9 @@ enum class Integrator { tvd_rk2, ssp_rk3 };
 enum class StepRule { dual, edge, paper };
 enum class EnergyGrowth { warn, stop };
 
-constexpr auto words(MeshSource) { return std::array<std::string_view, 2>{"box", "file"}; }
+constexpr auto words(MeshSource) { return std::array<std::string_view, 3>{"box", "cylinder", "file"}; }
 constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
+constexpr auto words(Sector) { return std::array<std::string_view, 1>{"quarter"}; }
 constexpr auto words(InitialField) {
   return std::array<std::string_view, 8>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave", "punch"};
 }
@@ -45,9 +47,11 @@ struct MeshSpec {
   MeshSource source = MeshSource::box;
   Vec3 origin{};                                   // [m] box
   Vec3 size{};                                     // [m] box
-  std::array<int, 3> cells{1, 1, 1};               // box
+  std::array<int, 3> cells{1, 1, 1};               // box: x y z; cylinder: radial tangential axial
   Split split = Split::alternating;                // box
   double perturb = 0;                              // share of a cell by which inner nodes are moved, fixed seed; box
+  double radius = 0, length = 0;                   // [m] cylinder, its axis from the origin along Z
+  Sector sector = Sector::quarter;                 // cylinder: X >= 0, Y >= 0
   Named file;                                      // file: path as resolved against the scene's folder
 };
 
@@ -56,6 +60,8 @@ struct MaterialSpec {
   double density = 0;                              // [kg/m^3]
   double youngs_modulus = 0;                       // [Pa]
   double poissons_ratio = 0;                       // [-]
+  double yield_stress = 0, hardening_modulus = 0;  // [Pa] hencky_j2 without a table
+  std::vector<std::pair<double, double>> hardening;  // [-], [Pa] hencky_j2: points (eps_p, tau_y); constant beyond the last
   double xi = 0;                                   // [Pa] mooney_rivlin: 2 zeta + 3 sqrt(3) xi = mu
   Volumetric volumetric = Volumetric::quadratic;
   Isochoric isochoric = Isochoric::F;
@@ -162,7 +168,7 @@ struct FieldName {
   int components;
   std::string_view unit;
 };
-inline constexpr std::array<FieldName, 10> field_names{{{"x", 3, "m"}, {"displacement", 3, "m"}, {"velocity", 3, "m/s"}, {"pressure", 1, "Pa"}, {"P", 9, "Pa"},
-                                                       {"F", 9, "-"}, {"H", 9, "-"}, {"J", 1, "-"}, {"det_F", 1, "-"}, {"von_mises", 1, "Pa"}}};
+inline constexpr std::array<FieldName, 11> field_names{{{"x", 3, "m"}, {"displacement", 3, "m"}, {"velocity", 3, "m/s"}, {"pressure", 1, "Pa"}, {"P", 9, "Pa"},
+                                                       {"F", 9, "-"}, {"H", 9, "-"}, {"J", 1, "-"}, {"det_F", 1, "-"}, {"von_mises", 1, "Pa"}, {"plastic_strain", 1, "-"}}};
 
 }  // namespace nanson

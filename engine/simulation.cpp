@@ -82,7 +82,7 @@ void constrain_start(Simulation& s) {
 Rows start_rows(const Simulation& s, int to) {
   State& u = const_cast<State&>(s.state);
   Rows r{};
-  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data(), r.W_new = u.W[to].data(), r.PH_new = u.PH[to].data();
+  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data(), r.W_new = u.W[to].data(), r.PH_new = u.PH[to].data(), r.plastic = u.plastic.data();
   return r;
 }
 
@@ -122,7 +122,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
 
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
   std::vector<std::pair<int, double>> steps;
-  const Rows rows = start_rows(s, s.state.now);  // evaluates the present stress again: the same values
+  const Rows rows = start_rows(s, 1 - s.state.now);  // evaluates the present stress again, into the rows that the next stage overwrites
   Aligned<double> length(8, 1e300);
   for (int n = 0; n < s.order.rows; ++n) {
     const int node = s.order.node_of[static_cast<std::size_t>(n)];

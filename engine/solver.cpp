@@ -46,7 +46,7 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   State& u = s.state;
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1;
   Coefficients k = s.coefficients;
-  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt;
+  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
   const Rows rows = stage_rows(u, from, to);
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
@@ -138,6 +138,7 @@ void advance(Simulation& s) {
       break;
     }
   }
+  if (s.scene->monitor.energy) book_plastic_work(s);
   s.t += s.dt, ++s.step;
 }
 

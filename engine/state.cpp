@@ -72,6 +72,11 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
   if (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear) s.GP.assign(row::GP * rows, 0.0);
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
   if (p.stabilisation == Stabilisation::jst) s.lambda = laplacian_weights(mesh, dual, order);
+  if (scene.material.law == Law::hencky_j2) {
+    s.plastic.assign(row::plastic * rows, 0.0);
+    for (std::size_t r = 0; r < rows; ++r)
+      for (std::size_t k = 0; k < 3; ++k) s.plastic[row::plastic * r + k] = 1;
+  }
   s.loads.assign(4 * boundary.slot_nodes.size(), 0.0);
   s.reactions.assign(reaction_row * boundary.constraints.size(), 0.0), s.mean_reactions = s.reactions;
   return s;
@@ -84,12 +89,12 @@ Rows stage_rows(State& u, int from, int to) {
   r.U_old = u.U[0].data(), r.U_stage = u.U[from].data(), r.H_old = u.H[0].data(), r.H_stage = u.H[from].data();
   r.W = u.W[u.now].data(), r.PH = u.PH[u.now].data();
   r.G = u.G.data(), r.Q = u.Q.data(), r.GP = u.GP.data(), r.L = u.L.data();
-  r.U_new = u.U[to].data(), r.H_new = u.H[to].data(), r.W_new = u.W[next].data(), r.PH_new = u.PH[next].data();
+  r.U_new = u.U[to].data(), r.H_new = u.H[to].data(), r.W_new = u.W[next].data(), r.PH_new = u.PH[next].data(), r.plastic = u.plastic.data();
   return r;
 }
 
 double bytes_per_node(const State& s, const Order& o) {
-  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.step_length.size() + s.loads.size() + 2 * s.reactions.size() + o.size.size();
+  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.plastic.size() + s.step_length.size() + s.loads.size() + 2 * s.reactions.size() + o.size.size();
   for (int k = 0; k < 2; ++k) doubles += s.U[k].size() + s.H[k].size() + s.W[k].size() + s.PH[k].size();
   for (int k = 0; k < 3; ++k) doubles += o.C[k].size() + o.corner_C[k].size();
   const std::size_t ints = o.a.size() + o.b.size() + o.out.size() + o.in.size() + o.in_edges.size() + o.corner.size() + o.corner_b.size() + o.corner_c.size() +

@@ -18,6 +18,7 @@ struct State {
   Aligned<double> Q;                       // full flux correction
   Aligned<double> GP;                      // tensor pressure jump
   Aligned<double> L, lambda;               // limiter (limited); pseudo-Laplacian and its weights (jst)
+  Aligned<double> plastic;                 // hencky_j2
   Aligned<double> step_length;             // [m] per node: dt = cfl min l/c
   Aligned<double> loads;                   // [N] 4 a loaded face
   std::vector<double> reactions, mean_reactions;  // reaction_row a constraint: of the last stage, mean of the last step's stages

@@ -167,14 +167,14 @@ RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& e
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
   std::vector<std::string> problems;
   Mesh mesh;
-  if (spec.source == MeshSource::box) {
-    double nodes = 1;
+  if (spec.source != MeshSource::file) {
+    double nodes = 1;                              // a bound for the cylinder, whose core has fewer
     for (const int n : spec.cells) nodes *= n + 1.0;
     if (6 * nodes > std::numeric_limits<int>::max())
       problems.push_back(fmt::format("{:.3g} nodes are more than can be numbered: take fewer cells", nodes));
     else
-      mesh = finish_mesh(make_box(spec), problems);
-    for (const auto& problem : problems) errors.push_back("mesh.box: " + problem);
+      mesh = finish_mesh(spec.source == MeshSource::box ? make_box(spec) : make_cylinder(spec), problems);
+    for (const auto& problem : problems) errors.push_back(fmt::format("mesh.{}: {}", word(spec.source), problem));
     return mesh;
   }
   const MshFile file(spec.file.name);

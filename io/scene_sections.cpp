@@ -31,6 +31,15 @@ void read_mesh_file(Table& t, MeshSpec& m, const std::filesystem::path& folder) 
   if (!std::filesystem::is_regular_file(m.file.name, error)) t.fail("file", fmt::format("there is no file {}", m.file.name));
 }
 
+/// The core of a quarter is m x m cells, m half the tangential ones.
+void read_cylinder_cells(Table& t, MeshSpec& m) {
+  if (!t.require("cells", m.cells, {.from = 1})) return;
+  if (m.cells[1] % 2 != 0) return t.fail("cells", fmt::format("the second number, {} tangential cells, must be even: half of them bound the core on each side", m.cells[1]));
+  if (m.cells[0] <= m.cells[1] / 2)
+    return t.fail("cells", fmt::format("the first number, {} radial cells, must be above half the second, {}, which the core takes", m.cells[0], m.cells[1] / 2));
+  check_count(t, m.cells);
+}
+
 bool normalise(Vec3& direction) {
   const double largest = std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
   if (largest == 0) return false;
@@ -52,37 +61,33 @@ void read_rotation(Table& t, InitialSpec& s) {
 }  // namespace
 
 void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folder) {
-  const bool box = t.has("box"), file = t.has("file");
-  if (box && file) t.fail("file", "stands beside mesh.box, exactly one of box | file is allowed");
-  if (!box && !file) t.missing({"box", "file"}, "mesh: exactly one of box | file is needed");
-  if (file && !box) m.source = MeshSource::file;
+  std::string beside;
+  for (const std::string_view source : words(m.source)) {
+    if (!t.has(source)) continue;
+    if (!beside.empty()) t.fail(source, fmt::format("stands beside mesh.{}, exactly one of {} is allowed", beside, join_words(words(m.source))));
+    else beside = source;
+  }
+  if (beside.empty()) t.missing({"box", "cylinder", "file"}, fmt::format("mesh: exactly one of {} is needed", join_words(words(m.source))));
+  if (beside == "cylinder") m.source = MeshSource::cylinder;
+  if (beside == "file") m.source = MeshSource::file;
   t.section("box", [&](Table& b) {
     b.read("origin", m.origin);
     b.require("size", m.size, {.above = 0});
   });
+  t.section("cylinder", [&](Table& c) {
+    c.require("radius", m.radius, {.above = 0});
+    c.require("length", m.length, {.above = 0});
+    c.read("sector", m.sector);
+  });
   read_mesh_file(t, m, folder);
   if (m.source == MeshSource::file) return t.only("file", {}, std::array<std::string_view, 3>{"cells", "split", "perturb"});
+  if (m.source == MeshSource::cylinder) {
+    t.only("cylinder", {}, std::array<std::string_view, 2>{"split", "perturb"});
+    return read_cylinder_cells(t, m);
+  }
   if (t.read("cells", m.cells, {.from = 1})) check_count(t, m.cells);
   t.read("split", m.split);
   t.read("perturb", m.perturb, {.from = 0, .to = 0.4});
-}
-
-void read_material(Table& t, MaterialSpec& m) {
-  const bool law = read_kind<Law>(t, "law", m.law, true, {{Law::mooney_rivlin, {"xi"}}});
-  t.require("density", m.density, {.above = 0});
-  const bool young = t.require("youngs_modulus", m.youngs_modulus, {.above = 0});
-  const bool poisson = t.require("poissons_ratio", m.poissons_ratio, {.above = -1, .below = 0.5});
-  if (law && m.law == Law::mooney_rivlin && t.require("xi", m.xi, {.from = 0}) && young && poisson) {
-    const double limit = m.youngs_modulus / (2 * (1 + m.poissons_ratio)) / (3 * std::sqrt(3.0));  // 2 zeta = mu - 3 sqrt(3) xi stays positive
-    if (!(m.xi < limit)) t.fail("xi", fmt::format("must be below mu / (3 sqrt(3)) = {:.6g}", limit));
-  }
-  const bool volumetric = t.read("volumetric", m.volumetric), isochoric = t.read("isochoric", m.isochoric);
-  if (!law || m.law != Law::linear_elastic) return;
-  const auto refuse = [&](std::string_view key, std::string_view allowed) {
-    t.fail(key, fmt::format("has no meaning for linear_elastic, allowed: {}", allowed));
-  };
-  if (volumetric && m.volumetric != MaterialSpec{}.volumetric) refuse("volumetric", word(MaterialSpec{}.volumetric));
-  if (isochoric && m.isochoric != MaterialSpec{}.isochoric) refuse("isochoric", word(MaterialSpec{}.isochoric));
 }
 
 void read_physics(Table& t, PhysicsSpec& p) {
@@ -176,6 +181,13 @@ void check_together(Table& root, const Scene& s) {
   if (sound("physics.keep_angular_momentum") && s.physics.keep_angular_momentum && sound("time.integrator") && s.time.integrator != Integrator::tvd_rk2)
     at("physics", "keep_angular_momentum", "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly");
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
+  const auto shows_plastic = [](const std::vector<std::string>& fields) { return std::find(fields.begin(), fields.end(), "plastic_strain") != fields.end(); };
+  if (sound("material.law") && s.material.law != Law::hencky_j2) {
+    const std::string_view why = "plastic_strain needs material.law = \"hencky_j2\"";
+    if (sound("output.fields") && shows_plastic(s.output.fields)) at("output", "fields", why);
+    for (const ProbeSpec& p : s.output.probes)
+      if (shows_plastic(p.fields)) at("output", "probes", fmt::format("{}.fields: {}", p.name, why));
+  }
   if (wave && sound("material.law") && s.material.law != Law::linear_elastic)
     at("initial", "field", "needs material.law = \"linear_elastic\": its exact solution is linear");
 }

@@ -15,6 +15,7 @@ typedef double Vec4 __attribute__((vector_size(32)));
 typedef double Vec8 __attribute__((vector_size(64)));
 typedef long long Mask4 __attribute__((vector_size(32)));
 typedef long long Mask8 __attribute__((vector_size(64)));
+typedef unsigned long long Bits8 __attribute__((vector_size(64)));
 
 NANSON_INLINE Vec4 broadcast4(double x) { return Vec4{x, x, x, x}; }
 NANSON_INLINE Vec8 broadcast8(double x) { return Vec8{x, x, x, x, x, x, x, x}; }
@@ -110,6 +111,48 @@ NANSON_INLINE Real cube_root(Real x) {
     t = t - t * ((r - x) / (r + r + x));
   }
   return choose(x > 0.0, t, x - x + __builtin_nan(""));
+}
+
+NANSON_INLINE std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64_t>(x); }
+NANSON_INLINE Bits8 bits_of(Vec8 x) { return std::bit_cast<Bits8>(x); }
+NANSON_INLINE double real_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
+NANSON_INLINE Vec8 real_of(Bits8 bits) { return std::bit_cast<Vec8>(bits); }
+
+/// c[0] + c[1] x + c[2] x^2 + ...
+template <class Real, std::size_t count>
+NANSON_INLINE Real polynomial(Real x, const double (&c)[count]) {
+  Real sum = Real{} + c[count - 1];
+  for (std::size_t i = count - 1; i-- > 0;) sum = fma(sum, x, Real{} + c[i]);
+  return sum;
+}
+
+inline constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;  // k ln2_high is exact for the exponents of a double
+
+/// ln x = k ln 2 + ln m, m in [sqrt(1/2), sqrt(2)): with f = m - 1, s = f/(2 + f), ln m = f - (f^2/2 - s (f^2/2 + R)), R = 2/3 s^2 + 2/5 s^4 + ... About 1 ulp;
+/// NaN where x is not a normal number above 0, which callers report as a breakdown.
+template <class Real>
+NANSON_INLINE Real logarithm(Real x) {
+  constexpr std::uint64_t bias = 1024ull << 52, root_half = 0x3fe6a09e667f3bcd;
+  const auto bits = bits_of(x);
+  const auto k = (bits - root_half + bias) >> 52;  // + 1024
+  const Real exponent = real_of(k | 0x4330000000000000ull) - (0x1p52 + 1024), f = real_of(bits + bias - (k << 52)) - 1.0;
+  const Real s = f / (f + 2.0), half = 0.5 * (f * f), z = s * s;
+  const Real R = z * polynomial(z, {2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19});
+  const Real ln = exponent * ln2_high - ((half - (s * (half + R) + exponent * ln2_low)) - f);
+  return choose(x >= 0x1p-1022, choose(x < __builtin_inf(), ln, x), x - x + __builtin_nan(""));
+}
+
+/// e^x = 2^k e^r, |r| <= ln 2/2, by the series of e^r. About 1 ulp for |x| < 708, beyond that 0 or infinite; NaN stays NaN.
+template <class Real>
+NANSON_INLINE Real exponential(Real x) {
+  constexpr double round = 0x1.8p52;  // x + round holds the nearest whole number in its low bits
+  const Real t = x * 0x1.71547652b82fep0 + round, k = t - round;
+  const Real r = (x - k * ln2_high) - k * ln2_low;
+  const Real P = polynomial(r, {1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800,
+                                1.0 / 479001600, 1.0 / 6227020800});
+  const Real e = real_of(bits_of(1.0 + (r + r * r * P)) + (bits_of(t) << 52));
+  const Real beyond = choose(x > 0.0, Real{} + __builtin_inf(), choose(x < 0.0, Real{}, x));
+  return choose(x < 708.0, choose(x > -708.0, e, beyond), beyond);
 }
 
 /// Eight rows of four doubles, `stride` doubles apart, as four lanes of eight.

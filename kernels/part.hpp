@@ -18,6 +18,7 @@ inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor
 inline constexpr int L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
 inline constexpr int X = 4;     // {X, 1/Omega}
 inline constexpr int lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
+inline constexpr int plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
 }  // namespace row
 
 /// Edges as structure of arrays, grouped by part, sorted by their first node a, which the part owns; an edge between two parts stands in both.
@@ -70,6 +71,7 @@ struct Rows {
   double* H_new;
   double* W_new;
   double* PH_new;
+  double* plastic;              // at the start of the step, overwritten where the stage commits
 };
 
 /// Directions in which a node is held, orthonormal, with what prescribes the acceleration along each.
@@ -94,6 +96,7 @@ struct Coefficients {
   bool sweeps_J = false;            // W is {v, J} in place of {v, Sigma_J} (jst)
   double g[3] = {};                 // [m/s^2] body force
   double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
+  bool commits = false;             // the stress of this stage is that of the new state: what flowed plastically is kept
   const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step
 };
 
@@ -108,6 +111,7 @@ struct Scratch {
 struct PartReport {
   double fastest = 0;           // [1/s] largest c/l over the nodes; dt = cfl/fastest
   bool broken = false;          // some node with !(det F > 0), !(J > 0) where carried, or v not finite
+  double plastic_work = 0;      // [J] of what was committed (hencky_j2)
 };
 
 /// What the gradient sweep adds to row L of a node.

@@ -1,5 +1,7 @@
-// The material: from {v, J, F, H} to the rows that neighbours read, {v, Sigma_J} and {P|H}, eight nodes as lanes; with the step bound and the breakdown test.
+// The material: from {v, J, F, H} to the rows that neighbours read, {v, Sigma_J} and {P|H}, eight nodes as lanes; with the step bound, the breakdown test and the
+// plastic state: each stage returns from the state at the start of the step, only the last one, whose F is that of the new state, keeps what flowed.
 #pragma once
+#include "kernels/materials/hencky_j2.hpp"
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
@@ -7,13 +9,25 @@
 
 namespace nanson {
 
+NANSON_INLINE PlasticState<Vec8> load_plastic(const double* p) {
+  PlasticState<Vec8> z;
+  Vec8 unused;
+  Vec8* C = z.C_p_inv.a;
+  load_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p), load_transposed(p + 4, row::plastic, C[3], C[4], C[5], unused);
+  return z;
+}
+NANSON_INLINE void store_plastic(double* p, const PlasticState<Vec8>& z) {
+  const Vec8* C = z.C_p_inv.a;
+  store_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p), store_transposed(p + 4, row::plastic, C[3], C[4], C[5], Vec8{});
+}
+
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
-PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, bool commits>
+PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   using Law_ = Material<law, volumetric, isochoric, formulation>;
   const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
-  Vec8 fastest{};
+  Vec8 fastest{}, plastic_work{};
   Mask8 broken{};
   for (int n = part.node_begin; n < part.node_end; n += 8) {
     const double* U = rows.U_new + row::U * n;
@@ -23,7 +37,23 @@ PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k
     for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
     if constexpr (formulation == Formulation::pFHJ)
       for (int I = 0; I < 3; ++I) load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
-    const Stress<Vec8> s = Law_::stress(F, H, J, k.material);
+    Stress<Vec8> s;
+    Mask8 sound = Vec8{} == 0.0;
+    if constexpr (law == Law::hencky_j2) {
+      double* p = rows.plastic + row::plastic * n;
+      const PlasticState<Vec8> z = load_plastic(p);
+      const ReturnMapping<Vec8> r = Law_::return_mapping(F, z, k.material);
+      s = Law_::stress(F, H, J, r, k.material);
+      sound = r.q - r.q == 0.0;
+      if constexpr (commits) {
+        Vec8 X[3], inverse_volume;
+        load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);
+        plastic_work = plastic_work + r.plastic_work / inverse_volume;
+        if (any(r.d_gamma > 0.0)) store_plastic(p, Law_::flowed(F, z, r));
+      }
+    } else {
+      s = Law_::stress(F, H, J, k.material);
+    }
 
     const Vec8 zero{};
     store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J);
@@ -37,11 +67,20 @@ PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k
     const Vec8 rate = c / load8(step_length + n);
     fastest = larger(rate, fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    Mask8 sound = (s.det_F > 0.0) & (size - size == 0.0);
+    sound = sound & (s.det_F > 0.0) & (size - size == 0.0);
     if constexpr (formulation != Formulation::pF) sound = sound & (J > 0.0);
     broken = broken | ~sound;
   }
-  return {largest(fastest), any(broken)};
+  double work = 0;
+  for (int i = 0; i < 8; ++i) work += plastic_work[i];
+  return {largest(fastest), any(broken), work};
+}
+
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
+  if constexpr (law == Law::hencky_j2)
+    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, true>(part, rows, k, step_length);
+  return stress_sweep<law, volumetric, isochoric, formulation, false>(part, rows, k, step_length);
 }
 
 template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
@@ -53,7 +92,15 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
     for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
     if constexpr (formulation == Formulation::pFHJ)
       for (int m = 0; m < 9; ++m) H[m % 3][m / 3] = rows.H_new[row::H * n + 4 * (m / 3) + m % 3];
-    sum += Material<law, volumetric, isochoric, formulation>::energy(F, H, U[3], k.material) / rows.X[row::X * n + 3];
+    using Law_ = Material<law, volumetric, isochoric, formulation>;
+    double density;
+    if constexpr (law == Law::hencky_j2) {
+      const double* p = rows.plastic + row::plastic * n;
+      density = Law_::energy(F, U[3], {{{p[0], p[1], p[2], p[4], p[5], p[6]}}, p[3]}, k.material);
+    } else {
+      density = Law_::energy(F, H, U[3], k.material);
+    }
+    sum += density / rows.X[row::X * n + 3];
   }
   return sum;
 }

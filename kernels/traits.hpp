@@ -5,7 +5,7 @@
 
 namespace nanson {
 
-enum class Law { linear_elastic, neo_hookean, mooney_rivlin };
+enum class Law { linear_elastic, neo_hookean, mooney_rivlin, hencky_j2 };
 enum class Volumetric { quadratic, barrier };      // U = kappa/2 (J-1)^2 (paper, eq. 14) | kappa/2 [(J^2-1)/2 - ln J]
 enum class Isochoric { F, J };                     // isochoric energy with det F | with the evolved J, as the paper writes it
 enum class Formulation { pF, pFJ, pFHJ };          // what is carried besides {p, F}
@@ -17,7 +17,7 @@ enum class BoundaryFlux { adjoint, paper };
 enum class UpwindMetric { deformed, paper };       // c_p max(1, |H N|) | c_p
 enum class EntropyFix { none, edge };              // edge: no stabilisation against the plain jump
 
-constexpr auto words(Law) { return std::array<std::string_view, 3>{"linear_elastic", "neo_hookean", "mooney_rivlin"}; }
+constexpr auto words(Law) { return std::array<std::string_view, 4>{"linear_elastic", "neo_hookean", "mooney_rivlin", "hencky_j2"}; }
 constexpr auto words(Volumetric) { return std::array<std::string_view, 2>{"quadratic", "barrier"}; }
 constexpr auto words(Isochoric) { return std::array<std::string_view, 2>{"F", "J"}; }
 constexpr auto words(Formulation) { return std::array<std::string_view, 3>{"pF", "pFJ", "pFHJ"}; }

@@ -5,12 +5,23 @@
 
 namespace nanson {
 
+inline constexpr int hardening_points = 16;  // the most that a hardening curve may have
+
+/// Isotropic hardening: tau_y = tau_y[i] + slope[i] (eps_p - eps_p[i]) from eps_p[i] to the next point, and on beyond the last.
+struct Hardening {
+  int count = 0;
+  double eps_p[hardening_points] = {};   // [-] growing, from 0
+  double tau_y[hardening_points] = {};   // [Pa]
+  double slope[hardening_points] = {};   // [Pa] >= 0
+};
+
 /// Constants of a material. mu = E/(2(1+nu)), kappa = E/(3(1-2nu)); 2 zeta + 3 sqrt(3) xi = mu.
 struct MaterialConstants {
   double rho = 0;                  // [kg/m^3] undeformed density
   double mu = 0, kappa = 0;        // [Pa] shear and bulk modulus
   double zeta = 0, xi = 0;         // [Pa] of the isochoric energy (paper, eq. 14)
   double cp = 0, cs = 0;           // [m/s] undeformed wave speeds (paper, eq. 39)
+  Hardening hardening;             // hencky_j2
 };
 
 /// Stress of one node (or of eight as lanes).

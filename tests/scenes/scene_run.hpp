@@ -2,6 +2,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,7 +31,8 @@ struct SceneRun {
   }
 };
 
-inline SceneRun run_config(const std::string& scene, const std::vector<std::string>& settings = {}, int threads = 2) {
+inline SceneRun run_config(const std::string& scene, const std::vector<std::string>& settings = {}, int threads = 2,
+                           const std::function<void(const Simulation&)>& at_end = {}) {
   SceneRun out;
   std::vector<std::string> errors;
   const auto loaded = load(std::string(NANSON_SOURCE_DIR) + "/configs/" + scene, settings, errors);
@@ -48,6 +50,7 @@ inline SceneRun run_config(const std::string& scene, const std::vector<std::stri
   std::string reason;
   const std::string status = run(s, observer, reason);
   out.summary = summarise(s, probes, status, reason);
+  if (at_end) at_end(s);
   return out;
 }
 
