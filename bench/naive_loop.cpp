@@ -87,46 +87,55 @@ void gradient_pass(NaiveLoop& n) {
   if (!n.Q.empty()) correct_stress(n);
 }
 
-/// P_ave C + D^p and D^J of every edge: D^p = |C|/2 rho [c_p n (x) n + c_s (I - n (x) n)] (v+ - v-) (eq. 36a, 37, 41), D^J = |c|^2 (Sigma+ - Sigma-)/(2 rho c_p |C|)
-/// (Remark 4, eq. 42) or c . (P+ - P-) C/(2 rho c_p |C|) (eq. 36b), n = c/|c|, c = H_ave C (eq. 38), c_p times max(1, |H_ave N|) in the deformed metric.
+/// Average of a tensor of both ends times C: traction from P, deformed area vector c from H (eq. 35, 38).
+NANSON_INLINE void average_times_C(const double (&A)[3][3], const double (&B)[3][3], const double (&C)[3], double (&out)[3]) {
+  for (int i = 0; i < 3; ++i) {
+    out[i] = 0;
+    for (int I = 0; I < 3; ++I) out[i] += 0.5 * (A[i][I] + B[i][I]) * C[I];
+  }
+}
+
+/// {D^p, D^J} of an edge: D^p = |C|/2 rho [c_p n (x) n + c_s (I - n (x) n)] (v+ - v-) (eq. 36a, 37, 41), D^J = |c|^2 (Sigma+ - Sigma-)/(2 rho c_p |C|)
+/// (Remark 4, eq. 42) or c . (P+ - P-) C/(2 rho c_p |C|) (eq. 36b), n = c/|c|, c = H_ave C, c_p times max(1, |H_ave N|) in the deformed metric.
+template <class Choice>
+NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3], const double (&D)[3]) {
+  const double rho = n.material.rho, cp = n.material.cp, cs = n.material.cs;
+  double jump[4];
+  for (int k = 0; k < 4; ++k) jump[k] = n.W[e.b][k] - n.W[e.a][k];
+  if (choice.linear())
+    for (int k = 0; k < (choice.evolves_J() ? 4 : 3); ++k) jump[k] -= 0.5 * (dot(n.G[e.a][k].data(), D) + dot(n.G[e.b][k].data(), D));
+  const double cc = dot(c, c), stretch = choice.deformed() ? std::max(1.0, std::sqrt(cc) / e.size) : 1.0, normal = dot(c, jump) / cc;
+  std::array<double, 4> out{};
+  for (int i = 0; i < 3; ++i) out[i] = 0.5 * e.size * rho * (cs * jump[i] + (cp * stretch - cs) * normal * c[i]);
+  if (!choice.evolves_J()) return out;
+  double across = cc * jump[3];
+  if (choice.tensor()) {
+    const NaiveStress &s_a = n.stress[e.a], &s_b = n.stress[e.b];
+    across = 0;
+    for (int i = 0; i < 3; ++i)
+      for (int I = 0; I < 3; ++I) {
+        double dP = s_b.P[i][I] - s_a.P[i][I];
+        if (choice.linear()) dP -= 0.5 * (dot(n.GP[e.a][3 * i + I].data(), D) + dot(n.GP[e.b][3 * i + I].data(), D));
+        across += c[i] * dP * e.C[I];
+      }
+  }
+  out[3] = across / (2 * rho * cp * stretch * e.size);
+  return out;
+}
+
+/// P_ave C + D^p and D^J of every edge, with the flux correction (method, section 14).
 template <class Choice>
 void flux_pass(NaiveLoop& n, Choice choice) {
   std::fill(n.force.begin(), n.force.end(), std::array<double, 4>{});
   std::fill(n.dG.begin(), n.dG.end(), Table<3, 3>{});
-  const double rho = n.material.rho, cp = n.material.cp, cs = n.material.cs;
   for (const NaiveEdge& e : n.edges) {
     const NaiveStress &s_a = n.stress[e.a], &s_b = n.stress[e.b];
-    const auto &W_a = n.W[e.a], &W_b = n.W[e.b];
-    double t[3], c[3], jump[4], D[3];
-    for (int i = 0; i < 3; ++i) {
-      t[i] = c[i] = 0;
-      for (int I = 0; I < 3; ++I) {
-        t[i] += 0.5 * (s_a.P[i][I] + s_b.P[i][I]) * e.C[I];
-        c[i] += 0.5 * (s_a.H[i][I] + s_b.H[i][I]) * e.C[I];
-      }
-    }
-    for (int k = 0; k < 4; ++k) jump[k] = W_b[k] - W_a[k];
-    for (int I = 0; I < 3; ++I) D[I] = n.X[e.b][I] - n.X[e.a][I];
-    if (choice.linear()) {
-      const auto &G_a = n.G[e.a], &G_b = n.G[e.b];
-      for (int k = 0; k < (choice.evolves_J() ? 4 : 3); ++k) jump[k] -= 0.5 * (dot(G_a[k].data(), D) + dot(G_b[k].data(), D));
-    }
-    const double cc = dot(c, c), stretch = choice.deformed() ? std::max(1.0, std::sqrt(cc) / e.size) : 1.0, normal = dot(c, jump) / cc;
-    double f[4] = {0, 0, 0, 0};
-    for (int i = 0; i < 3; ++i) f[i] = t[i] + 0.5 * e.size * rho * (cs * jump[i] + (cp * stretch - cs) * normal * c[i]);
-    if (choice.evolves_J()) {
-      double across = cc * jump[3];
-      if (choice.tensor()) {
-        across = 0;
-        for (int i = 0; i < 3; ++i)
-          for (int I = 0; I < 3; ++I) {
-            double dP = s_b.P[i][I] - s_a.P[i][I];
-            if (choice.linear()) dP -= 0.5 * (dot(n.GP[e.a][3 * i + I].data(), D) + dot(n.GP[e.b][3 * i + I].data(), D));
-            across += c[i] * dP * e.C[I];
-          }
-      }
-      f[3] = across / (2 * rho * cp * stretch * e.size);
-    }
+    const double D[3] = {n.X[e.b][0] - n.X[e.a][0], n.X[e.b][1] - n.X[e.a][1], n.X[e.b][2] - n.X[e.a][2]};
+    double t[3], c[3];
+    average_times_C(s_a.P, s_b.P, e.C, t);
+    average_times_C(s_a.H, s_b.H, e.C, c);
+    std::array<double, 4> f = stabilisation(n, e, choice, c, D);
+    for (int i = 0; i < 3; ++i) f[i] += t[i];
     if (choice.correction() != FluxCorrection::none) {
       double q[4];
       for (int k = 0; k < 4; ++k) q[k] = theta / 4 * (dot(n.G[e.a][k].data(), D) - dot(n.G[e.b][k].data(), D));
@@ -353,7 +362,21 @@ void naive_advance(NaiveLoop& n, double dt) {
   n.t += dt;
 }
 
-double largest_difference(const NaiveLoop& n, const Simulation& s) {
+double naive_dissipation(NaiveLoop& n) {
+  const AnyChoice choice{n.scene->physics};
+  gradient_pass(n);
+  double power = 0;
+  for (const NaiveEdge& e : n.edges) {
+    const double D[3] = {n.X[e.b][0] - n.X[e.a][0], n.X[e.b][1] - n.X[e.a][1], n.X[e.b][2] - n.X[e.a][2]};
+    double c[3];
+    average_times_C(n.stress[e.a].H, n.stress[e.b].H, e.C, c);
+    const std::array<double, 4> d = stabilisation(n, e, choice, c, D);
+    for (int k = 0; k < 4; ++k) power += (n.W[e.b][k] - n.W[e.a][k]) * d[k];
+  }
+  return power;
+}
+
+double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U_of, const double* W_of, const double* PH_of) {
   struct Field {
     double size = 0, difference = 0;
     void add(double ours, double theirs) {
@@ -363,10 +386,10 @@ double largest_difference(const NaiveLoop& n, const Simulation& s) {
     }
   } v, J, F, x, H, Sigma_J, P;
   for (std::size_t a = 0; a < n.row.size(); ++a) {
-    const NaiveNode& node = n.now[a];
+    const NaiveNode& node = nodes[a];
     const std::size_t r = static_cast<std::size_t>(n.row[a]);
-    const double *U = &s.state.U[0][row::U * r], *PH = &s.state.PH[s.state.now][row::PH * r];
-    J.add(node.J, U[3]), Sigma_J.add(n.W[a][3], s.state.W[s.state.now][row::W * r + 3]);
+    const double *U = U_of + row::U * r, *PH = PH_of + row::PH * r;
+    J.add(node.J, U[3]), Sigma_J.add(n.W[a][3], W_of[row::W * r + 3]);
     for (int i = 0; i < 3; ++i) {
       v.add(node.v[i], U[i]), x.add(node.x[i], U[4 * (i + 1) + 3]);
       for (int I = 0; I < 3; ++I) {
@@ -379,6 +402,10 @@ double largest_difference(const NaiveLoop& n, const Simulation& s) {
   for (const Field& f : {v, J, F, x, H, Sigma_J, P})
     if (f.difference > 0) worst = std::max(worst, f.difference / f.size);
   return worst;
+}
+
+double largest_difference(const NaiveLoop& n, const Simulation& s) {
+  return largest_difference(n, n.now, s.state.U[0].data(), s.state.W[s.state.now].data(), s.state.PH[s.state.now].data());
 }
 
 }  // namespace nanson

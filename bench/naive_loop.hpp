@@ -62,7 +62,11 @@ void naive_stage(NaiveLoop& n, int number, double dt);
 /// One step of the scene's integrator.
 void naive_advance(NaiveLoop& n, double dt);
 
-/// Largest difference to a simulation over v, J, F, x, H, Sigma_J and P, each relative to the largest value of its field.
+/// Power that the stabilisation takes out of the present state's edges [W].
+double naive_dissipation(NaiveLoop& n);
+
+/// Largest difference to the rows {U, W, PH} over v, J, F, x, H, Sigma_J and P, each relative to the largest value of its field; or to a simulation.
+double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U, const double* W, const double* PH);
 double largest_difference(const NaiveLoop& n, const Simulation& s);
 
 }  // namespace nanson

@@ -58,12 +58,27 @@ void shake(Simulation& s) {
   for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = s.functions.stress(s.order.parts[p], rows, s.coefficients, u.step_length.data());
 }
 
+/// Power of the stabilisation over all parts, after the gradients of the present state.
+double dissipation_of(Simulation& s) {
+  State& u = s.state;
+  Rows rows{};
+  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = u.G.data(), rows.Q = u.Q.data(), rows.GP = u.GP.data();
+  const auto edges = s.order.edges();
+  const auto lists = s.order.lists();
+  double power = 0;
+  for (const Part& p : s.order.parts)
+    if (!u.G.empty()) s.functions.gradient(p, edges, s.order.corners(), lists, rows, s.coefficients);
+  for (const Part& p : s.order.parts) power += s.functions.dissipation(p, edges, lists, rows, s.coefficients);
+  return power;
+}
+
 /// Largest relative difference after some steps from a random state.
 double difference_after(const Scene& scene, const Mesh& mesh, int steps, int threads, std::size_t least_parts) {
   Simulation fast = make_simulation(scene, mesh, threads);
   EXPECT_GE(fast.order.parts.size(), least_parts);
   shake(fast);
   NaiveLoop naive = make_naive_loop(fast);
+  EXPECT_NEAR(dissipation_of(fast) / naive_dissipation(naive), 1, 1e-12);
   fast.dt = 0.5 * allowed_step(fast);
   for (int i = 0; i < steps; ++i) {
     naive_advance(naive, fast.dt);
