@@ -21,13 +21,16 @@ std::string at(const Vec3& x) { return fmt::format("({:.6g}, {:.6g}, {:.6g})", x
 /// What the rest relies on to index arrays at all.
 void check_sizes(const RawMesh& raw, std::vector<std::string>& errors) {
   if (raw.tets.empty()) errors.push_back("the mesh has no tetrahedra: mesh the volume (gmsh -3), and put it into a physical group if there are any");
-  if (raw.X.size() > std::size_t(std::numeric_limits<int>::max()) || raw.tets.size() > std::size_t(std::numeric_limits<int>::max()))
-    errors.push_back(fmt::format("{} nodes and {} tets: more than {} of either cannot be numbered", raw.X.size(), raw.tets.size(), std::numeric_limits<int>::max()));
+  constexpr auto most = std::size_t(std::numeric_limits<int>::max());
+  if (raw.X.size() > most || raw.tets.size() > most)
+    errors.push_back(fmt::format("{} nodes and {} tets: more than {} of either cannot be numbered", raw.X.size(), raw.tets.size(), most));
   const auto bad = [](const std::vector<int>& ids, std::size_t elements, std::size_t names) {
     return ids.size() != elements || std::any_of(ids.begin(), ids.end(), [&](int id) { return id < 0 || std::size_t(id) >= names; });
   };
-  if (bad(raw.tet_region, raw.tets.size(), raw.region_names.size())) errors.push_back("tet_region does not give every tet one of the region names");
-  if (bad(raw.triangle_patch, raw.triangles.size(), raw.patch_names.size())) errors.push_back("triangle_patch does not give every triangle one of the patch names");
+  if (bad(raw.tet_region, raw.tets.size(), raw.region_names.size()))
+    errors.push_back("tet_region does not give every tet one of the region names");
+  if (bad(raw.triangle_patch, raw.triangles.size(), raw.patch_names.size()))
+    errors.push_back("triangle_patch does not give every triangle one of the patch names");
 }
 
 void check_coordinates(const std::vector<Vec3>& X, std::vector<std::string>& errors) {
@@ -49,7 +52,10 @@ void check_indices(const std::vector<std::array<int, n>>& elements, std::size_t 
       for (std::size_t w = 0; w < v; ++w) distinct = distinct && elements[e][v] != elements[e][w];
     }
     if (!in_range)
-      outside.add([&] { return fmt::format("{} {} has the nodes {}, but the mesh has nodes 0 to {} only", what, e, listed(elements[e]), std::int64_t(nodes) - 1); });
+      outside.add([&] {
+        return nodes == 0 ? fmt::format("{} {} has the nodes {}, but the mesh has no nodes", what, e, listed(elements[e]))
+                          : fmt::format("{} {} has the nodes {}, but the mesh has nodes 0 to {} only", what, e, listed(elements[e]), nodes - 1);
+      });
     else if (!distinct)
       repeated.add([&] { return fmt::format("{} {} has the nodes {}, two of them the same: remove it", what, e, listed(elements[e])); });
   }

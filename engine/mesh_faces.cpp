@@ -53,27 +53,28 @@ void complain_equal(const Mesh& mesh, int s, int t, Complaints& equal) {
   equal.add([&] {
     const auto& region_s = mesh.region_names[mesh.tet_region[s]];
     const auto& region_t = mesh.region_names[mesh.tet_region[t]];
-    return region_s == region_t ? fmt::format("tets {} and {} have the same nodes {}: remove one", s, t, listed(sorted(mesh.tets[s])))
-                                : fmt::format("tets {} and {} have the same nodes {}, one in region \"{}\" and one in \"{}\": "
-                                              "put every volume into one physical group only", s, t, listed(sorted(mesh.tets[s])), region_s, region_t);
+    const std::string both = fmt::format("tets {} and {} have the same nodes {}", s, t, listed(sorted(mesh.tets[s])));
+    return region_s == region_t ? both + ": remove one"
+                                : fmt::format("{}, one in region \"{}\" and one in \"{}\": put every volume into one physical group only",
+                                              both, region_s, region_t);
   });
 }
 
 /// All tets of one face, at least two. Equal tets are told once: at their face of the three smallest nodes.
 void check_inner_face(const Mesh& mesh, const Triangle& face, Entries tets, FaceComplaints& complaints) {
-  std::vector<std::pair<int, int>> others;         // (node opposite the face, tet), one a distinct tet
-  for (const auto& e : tets) {
-    const int node = mesh.tets[e.tet][opposite_corner(mesh.tets[e.tet], face)];
-    const auto same = std::find_if(others.begin(), others.end(), [&](const auto& o) { return o.first == node; });
-    if (same == others.end()) others.push_back({node, e.tet});
-    else if (node > face[2]) complain_equal(mesh, same->second, e.tet, complaints.equal);
-  }
+  std::vector<std::pair<int, int>> others;         // (node opposite the face, tet)
+  for (const auto& e : tets) others.push_back({mesh.tets[e.tet][opposite_corner(mesh.tets[e.tet], face)], e.tet});
+  std::sort(others.begin(), others.end());
+  for (std::size_t i = 1; i < others.size(); ++i)
+    if (others[i].first == others[i - 1].first && others[i].first > face[2])
+      complain_equal(mesh, others[i - 1].second, others[i].second, complaints.equal);
+  others.erase(std::unique(others.begin(), others.end(), [](const auto& s, const auto& t) { return s.first == t.first; }), others.end());
   if (others.size() > 2)
     complaints.crowded.add([&] {
-      std::vector<int> names;
-      for (const auto& o : others) names.push_back(o.second);
-      return fmt::format("face of nodes {} is shared by {} tets ({}): at most two may meet at a face; remove the overlapping ones",
-                         listed(face), names.size(), listed(names));
+      std::vector<int> some;
+      for (std::size_t i = 0; i < std::min<std::size_t>(others.size(), 5); ++i) some.push_back(others[i].second);
+      return fmt::format("face of nodes {} is shared by {} tets ({}{}): at most two may meet at a face; remove the overlapping ones", listed(face),
+                         others.size(), listed(some), some.size() < others.size() ? ", ..." : "");
     });
   else if (others.size() == 2 && even(outward(mesh.tets[others[0].second], face)) == even(outward(mesh.tets[others[1].second], face)))
     complaints.same_side.add([&] {
@@ -94,7 +95,8 @@ const Entry* find(Entries row, const Triangle& face) {
 }
 
 Face* find_boundary_face(Mesh& mesh, const Triangle& face) {
-  const auto found = std::lower_bound(mesh.faces.begin(), mesh.faces.end(), face, [](const Face& f, const Triangle& t) { return sorted(f.nodes) < t; });
+  const auto found = std::lower_bound(mesh.faces.begin(), mesh.faces.end(), face,
+                                      [](const Face& f, const Triangle& t) { return sorted(f.nodes) < t; });
   return found != mesh.faces.end() && sorted(found->nodes) == face ? &*found : nullptr;
 }
 
@@ -131,10 +133,8 @@ FaceTable face_table(std::size_t nodes, const std::vector<std::array<int, 4>>& t
     put(n[0], n[2], n[3]);
     put(n[1], n[2], n[3]);
   }
-  for (std::size_t a = 0; a < nodes; ++a)
-    std::sort(table.entries.begin() + std::ptrdiff_t(table.first[a]), table.entries.begin() + std::ptrdiff_t(table.first[a + 1]), [](const Entry& s, const Entry& t) {
-      return s.key() != t.key() ? s.key() < t.key() : s.tet < t.tet;
-    });
+  const auto before = [](const Entry& s, const Entry& t) { return s.key() != t.key() ? s.key() < t.key() : s.tet < t.tet; };
+  for (std::size_t a = 0; a < nodes; ++a) std::sort(table.entries.data() + table.first[a], table.entries.data() + table.first[a + 1], before);
   return table;
 }
 

@@ -69,7 +69,8 @@ MeshQuality mesh_quality(const Mesh& mesh) {
 std::string to_text(const MeshQuality& q) {
   const auto& c = q.worst_centre;
   std::string text = fmt::format("nodes {}, tets {}, boundary faces {}\n", q.nodes, q.tets, q.boundary_faces);
-  text += fmt::format("volume {:.6g} m^3, of a tet {:.3g} to {:.3g} m^3; edges {:.3g} to {:.3g} m\n", q.volume, q.min_volume, q.max_volume, q.min_edge, q.max_edge);
+  text += fmt::format("volume {:.6g} m^3, of a tet {:.3g} to {:.3g} m^3; ", q.volume, q.min_volume, q.max_volume);
+  text += fmt::format("edges {:.3g} to {:.3g} m\n", q.min_edge, q.max_edge);
   text += fmt::format("worst mean ratio {:.3f} (1 is regular): tet {} at ({:.6g}, {:.6g}, {:.6g})\n", q.worst, q.worst_tet, c[0], c[1], c[2]);
   text += "tets by mean ratio";
   for (int bin = 0; bin < 10; ++bin)

@@ -15,25 +15,60 @@ auto with(Choice choice, Use use) {
   return use.template operator()<static_cast<Choice>(at)>();
 }
 
-void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
-  const bool evolves_J = p.formulation != Formulation::pF, corrected = p.flux_correction != FluxCorrection::none;
-  const bool tensor = p.pressure_jump == PressureJump::tensor, full = p.flux_correction == FluxCorrection::full;
-  const bool stress_gradient = tensor && p.reconstruction == Reconstruction::linear;
-  f.gradient = stress_gradient ? (full ? gradient_part<true, true> : gradient_part<true, false>) : (full ? gradient_part<false, true> : gradient_part<false, false>);
-  with(p.reconstruction, [&]<Reconstruction reconstruction>() {
-    with(p.upwind_metric, [&]<UpwindMetric metric>() {
-      with(p.flux_correction, [&]<FluxCorrection correction>() {
-        if constexpr (reconstruction == Reconstruction::linear || correction == FluxCorrection::none) {
-          f.edge_flux = !evolves_J ? edge_flux_part<reconstruction, correction, false, PressureJump::scalar, metric>
-                        : tensor   ? edge_flux_part<reconstruction, correction, true, PressureJump::tensor, metric>
-                                   : edge_flux_part<reconstruction, correction, true, PressureJump::scalar, metric>;
-        }
-      });
-      f.dissipation = !evolves_J ? dissipation_part<reconstruction, false, PressureJump::scalar, metric>
-                      : tensor   ? dissipation_part<reconstruction, true, PressureJump::tensor, metric>
-                                 : dissipation_part<reconstruction, true, PressureJump::scalar, metric>;
-    });
+NodeWeights node_weights(const PhysicsSpec& p) {
+  if (p.stabilisation == Stabilisation::jst) return NodeWeights::laplacian;
+  return p.reconstruction == Reconstruction::limited ? NodeWeights::limiter : NodeWeights::none;
+}
+
+/// What is compiled: a correction needs gradients, and the rare options do not multiply with each other.
+constexpr bool is_built(Reconstruction r, FluxCorrection c, PressureJump jump, EntropyFix fix) {
+  if (r == Reconstruction::constant && c != FluxCorrection::none) return false;
+  return jump == PressureJump::scalar || (r != Reconstruction::limited && fix == EntropyFix::none);
+}
+
+void find_gradient(PartFunctions& f, const PhysicsSpec& p) {
+  const bool tensor = p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear, full = p.flux_correction == FluxCorrection::full;
+  switch (node_weights(p)) {
+    case NodeWeights::none:
+      f.gradient = tensor ? (full ? gradient_part<true, true, NodeWeights::none> : gradient_part<true, false, NodeWeights::none>)
+                          : (full ? gradient_part<false, true, NodeWeights::none> : gradient_part<false, false, NodeWeights::none>);
+      break;
+    case NodeWeights::limiter: f.gradient = full ? gradient_part<false, true, NodeWeights::limiter> : gradient_part<false, false, NodeWeights::limiter>; break;
+    case NodeWeights::laplacian: f.gradient = gradient_part<false, false, NodeWeights::laplacian>; break;
+  }
+}
+
+template <Reconstruction reconstruction, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+void find_upwind(PartFunctions& f, const PhysicsSpec& p) {
+  const bool evolves_J = p.formulation != Formulation::pF;
+  with(p.flux_correction, [&]<FluxCorrection correction>() {
+    if constexpr (is_built(reconstruction, correction, jump, fix)) {
+      f.edge_flux = edge_flux_part<reconstruction, correction, true, jump, metric, fix>;
+      if constexpr (jump == PressureJump::scalar)
+        if (!evolves_J) f.edge_flux = edge_flux_part<reconstruction, correction, false, jump, metric, fix>;
+    }
   });
+  if constexpr (is_built(reconstruction, FluxCorrection::none, jump, fix)) {
+    f.dissipation = dissipation_part<reconstruction, true, jump, metric, fix>;
+    if constexpr (jump == PressureJump::scalar)
+      if (!evolves_J) f.dissipation = dissipation_part<reconstruction, false, jump, metric, fix>;
+  }
+}
+
+void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
+  find_gradient(f, p);
+  if (p.stabilisation == Stabilisation::jst) {
+    f.edge_flux = p.formulation == Formulation::pF ? edge_flux_jst_part<false> : edge_flux_jst_part<true>;
+  } else {
+    with(p.reconstruction, [&]<Reconstruction reconstruction>() {
+      with(p.upwind_metric, [&]<UpwindMetric metric>() {
+        with(p.entropy_fix, [&]<EntropyFix fix>() {
+          with(p.pressure_jump, [&]<PressureJump jump>() { find_upwind<reconstruction, jump, metric, fix>(f, p); });
+        });
+      });
+    });
+  }
+  const bool corrected = p.flux_correction != FluxCorrection::none;
   with(p.formulation, [&]<Formulation formulation>() {
     f.accumulate_update = corrected ? accumulate_update_part<formulation, true> : accumulate_update_part<formulation, false>;
   });
@@ -59,12 +94,16 @@ void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec
 
 }  // namespace
 
+const char* const what_is_built =
+    "built: upwind with constant and flux_correction none; upwind with linear or limited and flux_correction none | pressure | full; "
+    "pressure_jump tensor not with limited, entropy_fix or pF; jst with linear, flux_correction none, scalar, no entropy_fix";
+
 PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material) {
   PartFunctions f;
   find_sweeps(f, physics);
   find_material(f, physics.formulation, material);
   if (!f.edge_flux)
-    throw std::invalid_argument("physics.flux_correction needs physics.reconstruction = \"linear\"; built: constant with none; linear with none, pressure, full");
+    throw std::invalid_argument(what_is_built);
   if (!f.stress)
     throw std::invalid_argument("this material is not built: linear_elastic takes volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ");
   return f;

@@ -14,6 +14,9 @@ struct PartFunctions {
   double (*strain_energy)(const Part&, const Rows&, const Coefficients&) = nullptr;
 };
 
+/// The combinations of physics that are compiled, in a sentence.
+extern const char* const what_is_built;
+
 PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material);
 
 }  // namespace nanson

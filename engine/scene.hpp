@@ -61,11 +61,13 @@ struct MaterialSpec {
 
 struct PhysicsSpec {
   Formulation formulation = Formulation::pFJ;
+  Stabilisation stabilisation = Stabilisation::upwind;
   PressureJump pressure_jump = PressureJump::scalar;
   Reconstruction reconstruction = Reconstruction::linear;
   FluxCorrection flux_correction = FluxCorrection::none;
   BoundaryFlux boundary_flux = BoundaryFlux::adjoint;
   UpwindMetric upwind_metric = UpwindMetric::deformed;
+  EntropyFix entropy_fix = EntropyFix::none;
 };
 
 struct InitialSpec {

@@ -28,6 +28,7 @@ Coefficients coefficients_of(const Scene& scene) {
   k.material = constants_of(scene.material);
   k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
   k.adjoint = scene.physics.boundary_flux == BoundaryFlux::adjoint;
+  k.sweeps_J = scene.physics.stabilisation == Stabilisation::jst;
   k.deformed_metric = scene.physics.upwind_metric == UpwindMetric::deformed;
   for (int i = 0; i < 3; ++i) k.g[i] = scene.body_force[i];
   return k;
@@ -44,9 +45,9 @@ Vec3 centre_of_mass(const Mesh& mesh, const std::vector<double>& volume) {
 }
 
 void set_initial_state(Simulation& s) {
-  const Vec3 centre = centre_of_mass(*s.mesh, s.volume);
+  const Vec3 centre = centre_of_mass(*s.mesh, s.volume), middle = middle_of_box(*s.mesh);
   for (int n = 0; n < s.order.nodes; ++n) {
-    const PointState p = initial_state(*s.scene, *s.mesh, s.mesh->X[static_cast<std::size_t>(n)], centre);
+    const PointState p = initial_state(*s.scene, middle, s.mesh->X[static_cast<std::size_t>(n)], centre);
     const std::size_t r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
     double* U = &s.state.U[0][row::U * r];
     Tensor<double> F;

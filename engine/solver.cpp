@@ -39,15 +39,14 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
 /// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
 void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   State& u = s.state;
-  const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1, next = 1 - u.now;
+  const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
-  Rows rows{u.X.data(), u.U[0].data(), u.U[from].data(), u.H[0].data(), u.H[from].data(), u.W[u.now].data(), u.PH[u.now].data(), u.G.data(), u.Q.data(),
-            u.GP.data(), u.loads.data(), u.U[to].data(), u.H[to].data(), u.W[next].data(), u.PH[next].data()};
+  const Rows rows = stage_rows(u, from, to);
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  const bool linear = s.scene->physics.reconstruction == Reconstruction::linear;
+  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant;
 
   if (!s.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
@@ -68,7 +67,7 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
       s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
     });
   });
-  u.now = next;
+  u.now = 1 - u.now;
 }
 
 /// Rate of each condition's time factor over the step: prescribed velocities are then exact at t + dt, in every Runge-Kutta stage.

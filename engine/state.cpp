@@ -1,6 +1,7 @@
 // Allocation by role, step lengths, and the account of memory.
 #include "engine/state.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +22,23 @@ std::vector<double> step_lengths(StepRule rule, const Mesh& mesh, const Dual& du
     for (std::size_t n = 0; n < length.size(); ++n) length[n] = 6 * dual.volume[n] / areas[n];
   if (rule == StepRule::paper) std::fill(length.begin(), length.end(), *std::min_element(length.begin(), length.end()));
   return length;
+}
+
+/// lambda = -M^-1 R, R = sum D, M = sum D (x) D over a node's edges: sum (1 + lambda . D) D = 0 (method, section 9).
+Aligned<double> laplacian_weights(const Mesh& mesh, const Dual& dual, const Order& order) {
+  std::vector<Eigen::Vector3d> R(mesh.X.size(), Eigen::Vector3d::Zero());
+  std::vector<Eigen::Matrix3d> M(mesh.X.size(), Eigen::Matrix3d::Zero());
+  for (const auto& e : dual.edges) {
+    const Eigen::Vector3d D = Eigen::Map<const Eigen::Vector3d>(mesh.X[e.b].data()) - Eigen::Map<const Eigen::Vector3d>(mesh.X[e.a].data());
+    R[e.a] += D, R[e.b] -= D;
+    M[e.a] += D * D.transpose(), M[e.b] += D * D.transpose();
+  }
+  Aligned<double> lambda(row::lambda * static_cast<std::size_t>(order.rows), 0.0);
+  for (std::size_t n = 0; n < mesh.X.size(); ++n) {
+    const Eigen::Vector3d l = -M[n].ldlt().solve(R[n]);
+    for (int k = 0; k < 3; ++k) lambda[static_cast<std::size_t>(row::lambda * order.row_of[n] + k)] = l[k];
+  }
+  return lambda;
 }
 
 }  // namespace
@@ -49,16 +67,29 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
       }
     }
   }
-  if (p.reconstruction == Reconstruction::linear) s.G.assign(row::G * rows, 0.0);
+  if (p.reconstruction != Reconstruction::constant) s.G.assign(row::G * rows, 0.0);
   if (p.flux_correction == FluxCorrection::full) s.Q.assign(row::Q * rows, 0.0);
   if (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear) s.GP.assign(row::GP * rows, 0.0);
+  if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
+  if (p.stabilisation == Stabilisation::jst) s.lambda = laplacian_weights(mesh, dual, order);
   s.loads.assign(4 * boundary.slot_nodes.size(), 0.0);
   s.reactions.assign(reaction_row * boundary.constraints.size(), 0.0);
   return s;
 }
 
+Rows stage_rows(State& u, int from, int to) {
+  const int next = 1 - u.now;
+  Rows r{};
+  r.X = u.X.data(), r.lambda = u.lambda.data(), r.loads = u.loads.data();
+  r.U_old = u.U[0].data(), r.U_stage = u.U[from].data(), r.H_old = u.H[0].data(), r.H_stage = u.H[from].data();
+  r.W = u.W[u.now].data(), r.PH = u.PH[u.now].data();
+  r.G = u.G.data(), r.Q = u.Q.data(), r.GP = u.GP.data(), r.L = u.L.data();
+  r.U_new = u.U[to].data(), r.H_new = u.H[to].data(), r.W_new = u.W[next].data(), r.PH_new = u.PH[next].data();
+  return r;
+}
+
 double bytes_per_node(const State& s, const Order& o) {
-  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.step_length.size() + s.loads.size() + s.reactions.size() + o.size.size();
+  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.step_length.size() + s.loads.size() + s.reactions.size() + o.size.size();
   for (int k = 0; k < 2; ++k) doubles += s.U[k].size() + s.H[k].size() + s.W[k].size() + s.PH[k].size();
   for (int k = 0; k < 3; ++k) doubles += o.C[k].size() + o.corner_C[k].size();
   const std::size_t ints = o.a.size() + o.b.size() + o.out.size() + o.in.size() + o.in_edges.size() + o.corner.size() + o.corner_b.size() + o.corner_c.size() +
@@ -74,6 +105,7 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   if (p.reconstruction == Reconstruction::constant) out.push_back("gradients and their sweep (constant reconstruction): 96 bytes");
   if (p.flux_correction != FluxCorrection::full) out.push_back("Q and its pass (flux_correction is not full): 96 bytes");
   if (p.pressure_jump == PressureJump::scalar) out.push_back("gradient of P (scalar pressure jump): 288 bytes");
+  if (p.reconstruction != Reconstruction::limited) out.push_back("limiter (reconstruction is not limited): 32 bytes");
   if (!scene.monitor.energy) out.push_back("energy audit (monitor.energy = false): one edge sweep a stage");
   return out;
 }

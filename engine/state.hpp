@@ -17,6 +17,7 @@ struct State {
   Aligned<double> G;                       // linear reconstruction
   Aligned<double> Q;                       // full flux correction
   Aligned<double> GP;                      // tensor pressure jump
+  Aligned<double> L, lambda;               // limiter (limited); pseudo-Laplacian and its weights (jst)
   Aligned<double> step_length;             // [m] per node: dt = cfl min l/c
   Aligned<double> loads;                   // [N] 4 a loaded face
   std::vector<double> reactions;           // reaction_row a constraint
@@ -25,6 +26,9 @@ struct State {
 
 /// Zero or undeformed everywhere; padding rows are undeformed nodes of unit volume with an infinite step length.
 State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const Order& order, const Boundary& boundary);
+
+/// The rows of a stage that takes the rates of U[from] and writes U[to], and the next W and PH.
+Rows stage_rows(State& state, int from, int to);
 
 /// Bytes a node of all arrays of state and order, and in words what the scene does not pay for.
 double bytes_per_node(const State& state, const Order& order);

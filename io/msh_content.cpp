@@ -70,7 +70,8 @@ void set_regions(const MshContent& content, RawMesh& mesh, std::vector<std::stri
     if (names.size() > 1 && std::find(told.begin(), told.end(), run.entity) == told.end()) {
       told.push_back(run.entity);
       shared.add([&] {
-        return fmt::format("volume {} is in {} physical groups, among them \"{}\" and \"{}\": put every volume into one only", run.entity, names.size(), names[0], names[1]);
+        return fmt::format("volume {} is in {} physical groups, among them \"{}\" and \"{}\": put every volume into one only", run.entity,
+                           names.size(), names[0], names[1]);
       });
     }
     mesh.tet_region.resize(run.end, id_of(names.empty() ? "unnamed" : names[0], mesh.region_names));
@@ -81,13 +82,13 @@ void set_regions(const MshContent& content, RawMesh& mesh, std::vector<std::stri
 /// One triangle a patch it is in; finish_mesh refuses two patches where that is on the boundary.
 void set_patches(const MshContent& content, RawMesh& mesh) {
   mesh.patch_names = names_in_order(content, 2, content.triangles);
+  const auto* elements = content.triangles.elements.data();
   std::size_t begin = 0;
   for (const auto& run : content.triangles.runs) {
-    for (const auto& name : names_of(content, {2, run.entity}))
-      for (std::size_t i = begin; i < run.end; ++i) {
-        mesh.triangles.push_back(content.triangles.elements[i]);
-        mesh.triangle_patch.push_back(id_of(name, mesh.patch_names));
-      }
+    for (const auto& name : names_of(content, {2, run.entity})) {
+      mesh.triangles.insert(mesh.triangles.end(), elements + begin, elements + run.end);
+      mesh.triangle_patch.resize(mesh.triangles.size(), id_of(name, mesh.patch_names));
+    }
     begin = run.end;
   }
 }
@@ -157,7 +158,8 @@ int node_count(const MshCursor& in, std::int64_t type) {
 }
 
 void set_node_tags(const MshCursor& in, const std::vector<std::int64_t>& tags, MshContent& content) {
-  if (tags.size() > std::size_t(std::numeric_limits<int>::max())) in.fail(fmt::format("{} nodes are more than {}", tags.size(), std::numeric_limits<int>::max()));
+  constexpr auto most = std::size_t(std::numeric_limits<int>::max());
+  if (tags.size() > most) in.fail(fmt::format("{} nodes are more than the {} that can be numbered", tags.size(), most));
   const auto [tag, twice] = content.index.build(tags);
   if (twice) in.fail(fmt::format("node {} is given twice", tag));
   content.on_skeleton.assign(tags.size(), 0);

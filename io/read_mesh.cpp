@@ -29,7 +29,8 @@ std::string path_problem(const std::filesystem::path& path) {
 
 Version read_format(MshCursor& in) {
   const double version = in.number<double>();
-  if (version != 2.2 && version != 4.1) in.fail(fmt::format("version {} of the .msh format is not supported: save as 4.1 (gmsh -format msh41) or 2.2", version));
+  if (version != 2.2 && version != 4.1)
+    in.fail(fmt::format("version {} of the .msh format is not supported: save as 4.1 (gmsh -format msh41) or 2.2", version));
   const auto mode = in.number<std::int64_t>();
   if (mode != 0 && mode != 1) in.fail(fmt::format("file type {} is neither 0 (text) nor 1 (binary)", mode));
   const auto real = in.number<std::int64_t>();
@@ -66,8 +67,9 @@ void read_section(MshCursor& in, std::string_view name, Version version, MshCont
   if (name == "$PhysicalNames") return read_names(in, content);
   in.end_of_line();
   if (name == "$Entities") return msh41::read_entities(in, content);
-  if (version == Version::v22) return name == "$Elements" ? msh22::read_elements(in, content) : msh22::read_nodes(in, name == "$ParametricNodes", content);
-  return name == "$Elements" ? msh41::read_elements(in, content) : msh41::read_nodes(in, content);
+  if (name == "$Elements") return version == Version::v22 ? msh22::read_elements(in, content) : msh41::read_elements(in, content);
+  if (version == Version::v22) return msh22::read_nodes(in, name == "$ParametricNodes", content);
+  msh41::read_nodes(in, content);
 }
 
 MshContent read_content(MshCursor& in) {
@@ -82,7 +84,8 @@ MshContent read_content(MshCursor& in) {
       version = read_format(in);
       continue;
     }
-    if (version == Version::none && name != "$Comments") in.fail("$MeshFormat must come first: this is not a Gmsh .msh file, or one older than version 2.2");
+    if (version == Version::none && name != "$Comments")
+      in.fail("$MeshFormat must come first: this is not a Gmsh .msh file, or one older than version 2.2");
     const std::string end = fmt::format("$End{}", name.substr(1));
     if (!is_read(name, version)) {
       in.skip_past(end);
@@ -117,20 +120,24 @@ Bytes read_bytes(const std::filesystem::path& path) {
 
 }  // namespace
 
+RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>& errors) {
+  MshCursor in(bytes);
+  try {
+    std::vector<std::string> problems;
+    RawMesh mesh = to_raw_mesh(read_content(in), problems);
+    for (const auto& problem : problems) errors.push_back(fmt::format("{}: {}", name, problem));
+    return mesh;
+  } catch (const MshError& problem) {
+    errors.push_back(fmt::format("{}:{}", name, problem.what()));
+    return {};
+  }
+}
+
 RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& errors) {
   if (const auto problem = path_problem(path); !problem.empty()) return errors.push_back(path.string() + ": " + problem), RawMesh{};
   const Bytes bytes = read_bytes(path);
   if (!bytes.complete) return errors.push_back(path.string() + ": cannot be read"), RawMesh{};
-  MshCursor in({bytes.data.get(), bytes.size});
-  try {
-    std::vector<std::string> problems;
-    RawMesh mesh = to_raw_mesh(read_content(in), problems);
-    for (const auto& problem : problems) errors.push_back(path.string() + ": " + problem);
-    return mesh;
-  } catch (const MshError& problem) {
-    errors.push_back(path.string() + ":" + problem.what());
-    return {};
-  }
+  return read_msh({bytes.data.get(), bytes.size}, path.string(), errors);
 }
 
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
@@ -139,8 +146,10 @@ Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
   if (spec.source == MeshSource::box) {
     double nodes = 1;
     for (const int n : spec.cells) nodes *= n + 1.0;
-    if (6 * nodes > std::numeric_limits<int>::max()) problems.push_back(fmt::format("{:.3g} nodes are more than can be numbered: take fewer cells", nodes));
-    else mesh = finish_mesh(make_box(spec), problems);
+    if (6 * nodes > std::numeric_limits<int>::max())
+      problems.push_back(fmt::format("{:.3g} nodes are more than can be numbered: take fewer cells", nodes));
+    else
+      mesh = finish_mesh(make_box(spec), problems);
     for (const auto& problem : problems) errors.push_back("mesh.box: " + problem);
     return mesh;
   }

@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/mesh.hpp"
@@ -12,6 +13,9 @@ namespace nanson {
 /// surfaces patches; tets of no physical volume are in region "unnamed". Nodes keep the order of the file, without construction points.
 /// Every error starts with the path, in text files with the line too.
 RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& errors);
+
+/// The same from bytes in memory; errors start with `name`.
+RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>& errors);
 
 /// Makes or reads the mesh of a scene and checks it; valid when no error was appended.
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors);

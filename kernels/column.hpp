@@ -74,11 +74,17 @@ NANSON_INLINE Vec8 root(Vec8 x) {
 
 /// a where the condition holds, else b. A comparison with NaN does not hold.
 NANSON_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
+NANSON_INLINE Vec4 choose(Mask4 condition, Vec4 a, Vec4 b) { return condition ? a : b; }
 NANSON_INLINE Vec8 choose(Mask8 condition, Vec8 a, Vec8 b) { return condition ? a : b; }
 
 template <class Real>
 NANSON_INLINE Real larger(Real a, Real b) {
   return choose(a > b, a, b);
+}
+
+template <class Real>
+NANSON_INLINE Real smaller(Real a, Real b) {
+  return choose(a < b, a, b);
 }
 
 /// First guess of x^(1/3) for normal x > 0: a third of the exponent and the constant of fdlibm's s_cbrt.c on the high word.

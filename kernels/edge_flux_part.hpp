@@ -2,6 +2,7 @@
 #pragma once
 #include "kernels/flux.hpp"
 #include "kernels/part.hpp"
+#include "kernels/reconstruction.hpp"
 
 namespace nanson {
 
@@ -12,7 +13,7 @@ NANSON_INLINE Vec4 traction_jump(const Rows& rows, int a, int b, const double (&
   Vec4 y{};
   for (int I = 0; I < 3; ++I) {
     Vec4 r = load4(rows.PH + row::PH * b + 8 * I) - load4(rows.PH + row::PH * a + 8 * I);
-    if constexpr (reconstruction == Reconstruction::linear)
+    if constexpr (reconstruction != Reconstruction::constant)
       for (int K = 0; K < 3; ++K) {
         const int at = 4 * (3 * K + I);
         r = r - (load4(rows.GP + row::GP * a + at) + load4(rows.GP + row::GP * b + at)) * D_half[K];
@@ -22,9 +23,27 @@ NANSON_INLINE Vec4 traction_jump(const Rows& rows, int a, int b, const double (&
   return y;
 }
 
+/// Stabilisation of an edge and the jump it acts on.
+struct EdgeStabilisation {
+  Stabiliser s;
+  Vec4 d;                         // reconstructed jump of {v, Sigma_J}, lane 3 replaced by c . (jump of P) C for the tensor pressure jump
+};
+template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+NANSON_INLINE EdgeStabilisation edge_stabilisation(const Rows& rows, int a, int b, const double (&C)[3], double size, Vec4 plain, Vec4 D, Vec4 c, const Coefficients& k) {
+  const double cc = dot3(c, c)[0];
+  EdgeCoefficients s = edge_coefficients<metric>(cc, size, k.rho_cp, k.rho_cs);
+  Vec4 d = reconstructed_jump<reconstruction>(rows, a, b, plain, D);
+  if constexpr (!evolves_J) s.volume = 0;
+  if constexpr (evolves_J && jump == PressureJump::tensor) {
+    d[3] = dot3(c, traction_jump<reconstruction>(rows, a, b, C, D))[0];
+    s.volume = s.volume / cc;
+  }
+  return {stabiliser<fix>(s, plain, d, c, cc), d};
+}
+
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums and differences of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric>
+template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
 NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
   constexpr bool corrected = correction != FluxCorrection::none;
   constexpr int width = corrected ? 8 : 4;
@@ -33,54 +52,28 @@ NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const 
     const Vec4 Wa = load4(rows.W + row::W * a), Xa = load4(rows.X + row::X * a);
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
-    const double* Ga = rows.G + row::G * a;
     for (std::int32_t e = lists.out[a]; e < lists.out[a + 1]; ++e) {
-      const std::int32_t b = edges.b[e];
-      const std::int32_t next = edges.b[e + ahead];  // the array is padded
+      const std::int32_t b = edges.b[e], next = edges.b[e + ahead];  // the array is padded
       for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
+      if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
+      const Vec4 c = high(tc), D = load4(rows.X + row::X * b) - Xa, plain = load4(rows.W + row::W * b) - Wa;
       Vec4 t = low(tc);
-      const Vec4 c = high(tc);
-      Vec4 d = load4(rows.W + row::W * b) - Wa, q{}, D{};
-      if constexpr (reconstruction == Reconstruction::linear) {
-        const double* Gb = rows.G + row::G * b;
-        __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
-        D = load4(rows.X + row::X * b) - Xa;
-        const Vec4 D0 = spread<0>(D), D1 = spread<1>(D), D2 = spread<2>(D);
-        Vec4 s = (load4(Ga) + load4(Gb)) * D0;
-        s = fma(load4(Ga + 4) + load4(Gb + 4), D1, s), s = fma(load4(Ga + 8) + load4(Gb + 8), D2, s);
-        d = fma(s, broadcast4(-0.5), d);
-        if constexpr (corrected) {
-          q = (load4(Ga) - load4(Gb)) * D0;
-          q = fma(load4(Ga + 4) - load4(Gb + 4), D1, q), q = fma(load4(Ga + 8) - load4(Gb + 8), D2, q);
-          q = q * broadcast4(0.25 * k.theta);
-        }
-      }
-      if constexpr (correction == FluxCorrection::full) {
-        const double *Qa = rows.Q + row::Q * a, *Qb = rows.Q + row::Q * b;
-        t = (load4(Qa) + load4(Qb)) * broadcast4(0.5 * C[0]);
-        t = fma(load4(Qa + 4) + load4(Qb + 4), broadcast4(0.5 * C[1]), t), t = fma(load4(Qa + 8) + load4(Qb + 8), broadcast4(0.5 * C[2]), t);
-      }
-      const double cc = dot3(c, c)[0];
-      const EdgeCoefficients s = edge_coefficients<metric>(cc, edges.size[e], k.rho_cp, k.rho_cs);
-      Vec4 along = broadcast4(s.normal) * dot3(c, d);
+      if constexpr (correction == FluxCorrection::full) t = average_traction(rows.Q + row::Q * a, rows.Q + row::Q * b, C);
+      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edges.size[e], plain, D, c, k);
+      Vec4 along = broadcast4(u.s.along), q{};
+      if constexpr (corrected) q = difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * k.theta);
       if constexpr (correction == FluxCorrection::pressure) along = along + spread<3>(q);
-      double volume = evolves_J ? s.volume : 0.0;
-      if constexpr (jump == PressureJump::tensor && evolves_J) {
-        d[3] = (dot3(c, traction_jump<reconstruction>(rows, a, b, C, D)))[0];
-        volume = s.volume / cc;
-      }
-      const Vec4 flux = fma(Vec4{s.shear, s.shear, s.shear, volume}, d, fma(along, c, t));
       double* out = buffer + width * (e - part.edge_begin);
-      store4(out, flux);
+      store4(out, fma(u.s.k, u.d, fma(along, c, t)));
       if constexpr (corrected) store4(out + 4, q);
     }
   }
 }
 
-/// Power of the same stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J with the plain nodal differences (paper, eq. 71; method, section 11).
-template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric>
+/// Power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J with the plain nodal differences (paper, eq. 71; method, section 11).
+template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
 double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
   double power = 0;
   for (int a = part.node_begin; a < part.node_end; ++a)
@@ -92,21 +85,9 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
       const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
       const Vec4 c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
       const Vec4 plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a), D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a);
-      Vec4 d = plain;
-      if constexpr (reconstruction == Reconstruction::linear) {
-        const double *Ga = rows.G + row::G * a, *Gb = rows.G + row::G * b;
-        for (int I = 0; I < 3; ++I) d = d - (load4(Ga + 4 * I) + load4(Gb + 4 * I)) * broadcast4(0.5 * D[I]);
-      }
-      const double cc = dot3(c, c)[0];
-      const EdgeCoefficients s = edge_coefficients<metric>(cc, edges.size[e], k.rho_cp, k.rho_cs);
-      double volume = evolves_J ? s.volume : 0.0;
-      const double along = s.normal * dot3(c, d)[0];
-      if constexpr (jump == PressureJump::tensor && evolves_J) {
-        d[3] = (dot3(c, traction_jump<reconstruction>(rows, a, b, C, D)))[0];
-        volume = s.volume / cc;
-      }
-      for (int i = 0; i < 3; ++i) power += plain[i] * (s.shear * d[i] + along * c[i]);
-      power += plain[3] * volume * d[3];
+      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edges.size[e], plain, D, c, k);
+      const Vec4 p = plain * fma(u.s.k, u.d, broadcast4(u.s.along) * c);
+      power += ((p[0] + p[1]) + p[2]) + p[3];
     }
   return power;
 }
@@ -133,10 +114,10 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
     }
 }
 
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric>
+template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
 void edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                     const Scratch& scratch) {
-  edge_fluxes<reconstruction, correction, evolves_J, jump, metric>(part, edges, lists, rows, k, scratch.edge);
+  edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix>(part, edges, lists, rows, k, scratch.edge);
   corner_forces<correction>(part, corners, lists, rows, k, scratch.edge);
 }
 

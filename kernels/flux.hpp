@@ -23,11 +23,35 @@ NANSON_INLINE EdgeCoefficients edge_coefficients(double cc, double size, double 
   return {shear, fma(0.5 * rho_cp, cn, -shear) * (inverse * cn), (0.5 / rho_cp) * (cc * cc) * inverse};
 }
 
+/// What multiplies the jump d = {v, Sigma_J}: {D^p, D^J} = k d + along c.
+struct Stabiliser {
+  Vec4 k;
+  double along;
+};
+
+/// The entropy fix drops the normal or the tangential part of D^p, and D^J, where the reconstructed jump d opposes the plain one (method, section 3).
+template <EntropyFix fix>
+NANSON_INLINE Stabiliser stabiliser(const EdgeCoefficients& s, Vec4 plain, Vec4 d, Vec4 c, double cc) {
+  const double cd = dot3(c, d)[0];
+  if constexpr (fix == EntropyFix::none) return {Vec4{s.shear, s.shear, s.shear, s.volume}, s.normal * cd};
+  const double c_plain = dot3(c, plain)[0], inverse = 1.0 / cc, tangential = dot3(d, plain)[0] - cd * c_plain * inverse;
+  const double shear = tangential < 0 ? 0.0 : s.shear, volume = d[3] * plain[3] < 0 ? 0.0 : s.volume;
+  const double normal = cd * c_plain < 0 ? 0.0 : fma(s.normal, cd, s.shear * (cd * inverse));
+  return {Vec4{shear, shear, shear, volume}, fma(-shear, cd * inverse, normal)};
+}
+
 /// Central traction and area of an edge: {P_ave C | H_ave C} from the {P|H} columns of both ends.
 NANSON_INLINE Vec8 average_traction_and_area(const Vec8 (&PH_a)[3], const double* PH_b, const double (&C)[3]) {
   Vec8 s = (PH_a[0] + load8(PH_b)) * broadcast8(0.5 * C[0]);
   s = fma(PH_a[1] + load8(PH_b + 8), broadcast8(0.5 * C[1]), s);
   return fma(PH_a[2] + load8(PH_b + 16), broadcast8(0.5 * C[2]), s);
+}
+
+/// The same traction from the nodal stress Q of the full flux correction.
+NANSON_INLINE Vec4 average_traction(const double* Qa, const double* Qb, const double (&C)[3]) {
+  Vec4 t = (load4(Qa) + load4(Qb)) * broadcast4(0.5 * C[0]);
+  t = fma(load4(Qa + 4) + load4(Qb + 4), broadcast4(0.5 * C[1]), t);
+  return fma(load4(Qa + 8) + load4(Qb + 8), broadcast4(0.5 * C[2]), t);
 }
 
 }  // namespace nanson

@@ -1,6 +1,7 @@
 // Green-Gauss gradients, node by node over both kinds of edges: at once dF/dt and the reconstruction gradient (paper, eq. 43a; method: one pass serves both).
 #pragma once
 #include "kernels/part.hpp"
+#include "kernels/reconstruction.hpp"
 
 namespace nanson {
 
@@ -83,10 +84,41 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
   for (int I = 0; I < 3; ++I) store4(rows.Q + row::Q * n + 4 * I, fma(q[I], scale, load4(Pa + 8 * I)));
 }
 
-template <bool tensor_jump, bool full_correction>
+/// Row L of a node: the limiter of its reconstruction (method, section 4).
+NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
+  const Vec4 Wa = load4(rows.W + row::W * n), Xa = load4(rows.X + row::X * n);
+  const double* G = rows.G + row::G * n;
+  Vec4 above{}, below{}, rise{}, fall{};
+  around(
+      n, edges, corners, lists,
+      [&](int b, double, double, double) {
+        const Vec4 d = load4(rows.W + row::W * b) - Wa, slope = along(G, load4(rows.X + row::X * b) - Xa) * 0.5;
+        above = larger(above, d), below = smaller(below, d), rise = larger(rise, slope), fall = smaller(fall, slope);
+      },
+      [](int, int, double, double, double) {});
+  store4(rows.L + row::L * n, barth_jespersen(rise, fall, above, below));
+}
+
+/// Row L of a node: pseudo-Laplacian sum_b (1 + lambda . D)(W_b - W_a), W = {v, J}; zero for linear fields (method, section 9).
+NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
+  const Vec4 Wa = load4(rows.W + row::W * n), Xa = load4(rows.X + row::X * n), lambda = load4(rows.lambda + row::lambda * n);
+  Vec4 sum{};
+  around(
+      n, edges, corners, lists,
+      [&](int b, double, double, double) {
+        const Vec4 weight = dot3(lambda, load4(rows.X + row::X * b) - Xa) + 1.0;
+        sum = fma(weight, load4(rows.W + row::W * b) - Wa, sum);
+      },
+      [](int, int, double, double, double) {});
+  store4(rows.L + row::L * n, sum);
+}
+
+template <bool tensor_jump, bool full_correction, NodeWeights weights>
 void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
     gradient_of_W(n, edges, corners, lists, rows);
+    if constexpr (weights == NodeWeights::limiter) limiter(n, edges, corners, lists, rows);
+    if constexpr (weights == NodeWeights::laplacian) pseudo_laplacian(n, edges, corners, lists, rows);
     if constexpr (tensor_jump || full_correction) {
       Vec4 g[3][3];
       gradient_of_P(n, edges, corners, lists, rows, g);

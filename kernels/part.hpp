@@ -15,7 +15,9 @@ inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}
 inline constexpr int G = 12;    // per direction I: d{v, Sigma_J}/dX_I
 inline constexpr int Q = 12;    // {columns of Q, 0}: the nodal stress of the full flux correction
 inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
+inline constexpr int L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
 inline constexpr int X = 4;     // {X, 1/Omega}
+inline constexpr int lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
 }  // namespace row
 
 /// Edges as structure of arrays, grouped by part, sorted by their first node a, which the part owns; an edge between two parts stands in both.
@@ -61,6 +63,8 @@ struct Rows {
   double* G;
   double* Q;
   double* GP;
+  double* L;
+  const double* lambda;
   const double* loads;          // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
@@ -87,6 +91,7 @@ struct Coefficients {
   double theta = 2.0 / 3;           // [-] flux correction
   bool adjoint = true;              // boundary flux
   bool deformed_metric = true;      // upwinding, for the step bound
+  bool sweeps_J = false;            // W is {v, J} in place of {v, Sigma_J} (jst)
   double g[3] = {};                 // [m/s^2] body force
   double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
   double reaction_weight = 0;       // share of this stage in the step's mean reaction; the first stage overwrites
@@ -107,12 +112,18 @@ struct PartReport {
   bool broken = false;          // some node with !(det F > 0), !(J > 0) where carried, or v not finite
 };
 
+/// What the gradient sweep adds to row L of a node.
+enum class NodeWeights { none, limiter, laplacian };
+
 // The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.
-template <bool tensor_jump, bool full_correction>
+template <bool tensor_jump, bool full_correction, NodeWeights>
 void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
-template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric>
+template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
 void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+
+template <bool evolves_J>
+void edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
 template <Formulation, bool corrected>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
@@ -122,7 +133,7 @@ template <Law, Volumetric, Isochoric, Formulation>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 /// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
-template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric>
+template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].

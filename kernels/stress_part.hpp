@@ -26,7 +26,7 @@ PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k
     const Stress<Vec8> s = Law_::stress(F, H, J, k.material);
 
     const Vec8 zero{};
-    store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], s.Sigma_J);
+    store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J);
     for (int I = 0; I < 3; ++I) {
       store_transposed(rows.PH_new + row::PH * n + 8 * I, row::PH, s.P[0][I], s.P[1][I], s.P[2][I], zero);
       store_transposed(rows.PH_new + row::PH * n + 8 * I + 4, row::PH, s.H[0][I], s.H[1][I], s.H[2][I], zero);

@@ -10,19 +10,23 @@ enum class Volumetric { quadratic, barrier };      // U = kappa/2 (J-1)^2 (paper
 enum class Isochoric { F, J };                     // isochoric energy with det F | with the evolved J, as the paper writes it
 enum class Formulation { pF, pFJ, pFHJ };          // what is carried besides {p, F}
 enum class PressureJump { scalar, tensor };        // jump of Sigma_J (paper, Remark 4) | of P N (paper, eq. 36b)
-enum class Reconstruction { constant, linear };
+enum class Stabilisation { upwind, jst };          // acoustic Riemann solver | Jameson-Schmidt-Turkel (paper, section 6.1)
+enum class Reconstruction { constant, linear, limited };
 enum class FluxCorrection { none, pressure, full };
 enum class BoundaryFlux { adjoint, paper };
 enum class UpwindMetric { deformed, paper };       // c_p max(1, |H N|) | c_p
+enum class EntropyFix { none, edge };              // edge: no stabilisation against the plain jump
 
 constexpr auto words(Law) { return std::array<std::string_view, 3>{"linear_elastic", "neo_hookean", "mooney_rivlin"}; }
 constexpr auto words(Volumetric) { return std::array<std::string_view, 2>{"quadratic", "barrier"}; }
 constexpr auto words(Isochoric) { return std::array<std::string_view, 2>{"F", "J"}; }
 constexpr auto words(Formulation) { return std::array<std::string_view, 3>{"pF", "pFJ", "pFHJ"}; }
 constexpr auto words(PressureJump) { return std::array<std::string_view, 2>{"scalar", "tensor"}; }
-constexpr auto words(Reconstruction) { return std::array<std::string_view, 2>{"constant", "linear"}; }
+constexpr auto words(Stabilisation) { return std::array<std::string_view, 2>{"upwind", "jst"}; }
+constexpr auto words(Reconstruction) { return std::array<std::string_view, 3>{"constant", "linear", "limited"}; }
 constexpr auto words(FluxCorrection) { return std::array<std::string_view, 3>{"none", "pressure", "full"}; }
 constexpr auto words(BoundaryFlux) { return std::array<std::string_view, 2>{"adjoint", "paper"}; }
+constexpr auto words(EntropyFix) { return std::array<std::string_view, 2>{"none", "edge"}; }
 constexpr auto words(UpwindMetric) { return std::array<std::string_view, 2>{"deformed", "paper"}; }
 
 /// The TOML word of a choice.

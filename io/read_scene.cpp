@@ -1,0 +1,87 @@
+// From a scene file to a Scene: the text, the settings, the sections in order, then the rules between sections.
+#include "io/read_scene.hpp"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include "io/scene_sections.hpp"
+#include "io/settings.hpp"
+
+namespace nanson {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::optional<std::string> read_text(const fs::path& file, std::string& why) {
+  std::error_code error;
+  const fs::file_status status = fs::status(file, error);
+  if (!fs::exists(status)) why = "no such file";
+  else if (!fs::is_regular_file(status)) why = "is not a file";
+  if (!why.empty()) return std::nullopt;
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) why = "cannot be read";
+  return why.empty() ? std::optional(std::move(text)) : std::nullopt;
+}
+
+std::optional<toml::table> parse_text(const std::string& text, Diagnostics& d) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& e) {
+    report(d, place_of(e.source()), std::string(e.description()));
+    return std::nullopt;
+  }
+}
+
+void read_root(Table& root, SceneResult& r, const fs::path& folder) {
+  Scene& s = r.scene;
+  if (root.require("scene", s.name) && !is_plain(s.name)) root.fail("scene", "names a folder: use letters, digits, - and _ only");
+  root.require_section("mesh", [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
+  root.require_section("material", [&](Table& t) { read_material(t, s.material); });
+  root.section("physics", [&](Table& t) { read_physics(t, s.physics); });
+  root.section("initial", [&](Table& t) { read_initial(t, s.initial); });
+  read_boundaries(root, s.boundary);
+  root.section("body_force", [&](Table& t) { t.read("g", s.body_force); });
+  root.require_section("time", [&](Table& t) { read_time(t, s.time); });
+  root.section("output", [&](Table& t) { read_output(t, s.output); });
+  root.section("monitor", [&](Table& t) { read_monitor(t, s.monitor); });
+  check_together(root, s);
+}
+
+bool concerns_mesh(const std::string& key) { return key == "mesh" || key.starts_with("mesh."); }
+
+}  // namespace
+
+SceneResult read_scene(const fs::path& file, const std::vector<std::string>& settings) {
+  SceneResult r;
+  r.scene.file = file;
+  Diagnostics d;
+  d.file = file.string();
+
+  std::string why;
+  std::vector<Setting> parsed = parse_settings(settings, d);
+  std::optional<std::string> text = read_text(file, why);
+  if (!text) {
+    r.errors = listed(d);
+    r.errors.insert(r.errors.begin(), d.file + ": " + why);  // it has no line
+    return r;
+  }
+  r.scene.text = *text;
+  if (!settings.empty() && !text->ends_with('\n')) r.scene.text += '\n';
+  for (const std::string& setting : settings) r.scene.text += "# --set " + setting + "\n";
+
+  if (std::optional<toml::table> tree = parse_text(*text, d)) {
+    for (Setting& s : parsed) apply(*tree, std::move(s), d);
+    Table root(*tree, "", d);
+    read_root(root, r, file.parent_path());
+    root.finish();
+    r.mesh_valid = std::none_of(d.wrong.begin(), d.wrong.end(), concerns_mesh);
+  }
+  r.errors = listed(std::move(d));
+  return r;
+}
+
+}  // namespace nanson

@@ -1,0 +1,176 @@
+// The sections of a scene that are read key by key. Defaults stand in engine/scene.hpp.
+#include "io/scene_sections.hpp"
+
+#include "engine/registry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace nanson {
+
+namespace {
+
+/// Node and tet numbers are int.
+void check_count(Table& t, const std::array<int, 3>& cells) {
+  double nodes = 1, tets = 6;
+  for (const int n : cells) {
+    nodes *= n + 1.0;
+    tets *= n;
+  }
+  const double limit = std::numeric_limits<int>::max();
+  if (std::max(nodes, tets) > limit)
+    t.fail("cells", fmt::format("makes {:.3g} nodes and {:.3g} tets, at most {} of each can be numbered", nodes, tets, limit));
+}
+
+void read_mesh_file(Table& t, MeshSpec& m, const std::filesystem::path& folder) {
+  std::string name;
+  if (!t.read("file", name) || !t.has("file")) return;
+  m.file = {(folder / name).string(), where(t.diagnostics(), t.place("file"))};
+  std::error_code error;
+  if (!std::filesystem::is_regular_file(m.file.name, error)) t.fail("file", fmt::format("there is no file {}", m.file.name));
+}
+
+bool normalise(Vec3& direction) {
+  const double largest = std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
+  if (largest == 0) return false;
+  for (double& x : direction) x /= largest;        // first, so that no square over- or underflows
+  const double length = std::hypot(direction[0], direction[1], direction[2]);
+  for (double& x : direction) x /= length;
+  return true;
+}
+
+void read_rotation(Table& t, InitialSpec& s) {
+  t.require("omega", s.omega);
+  const toml::node* centre = t.find("centre");
+  if (!centre || (centre->is_string() && centre->as_string()->get() == "mass")) return;
+  Vec3 at{};
+  if (centre->is_string()) t.fail("centre", "must be \"mass\" or three numbers");
+  else if (t.read("centre", at)) s.centre = at;
+}
+
+}  // namespace
+
+void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folder) {
+  const bool box = t.has("box"), file = t.has("file");
+  if (box && file) t.fail("file", "stands beside mesh.box, exactly one of box | file is allowed");
+  if (!box && !file) t.missing({"box", "file"}, "mesh: exactly one of box | file is needed");
+  if (file && !box) m.source = MeshSource::file;
+  t.section("box", [&](Table& b) {
+    b.read("origin", m.origin);
+    b.require("size", m.size, {.above = 0});
+  });
+  read_mesh_file(t, m, folder);
+  if (m.source == MeshSource::file) return t.only("file", {}, std::array<std::string_view, 3>{"cells", "split", "perturb"});
+  if (t.read("cells", m.cells, {.from = 1})) check_count(t, m.cells);
+  t.read("split", m.split);
+  t.read("perturb", m.perturb, {.from = 0, .to = 0.4});
+}
+
+void read_material(Table& t, MaterialSpec& m) {
+  const bool law = read_kind<Law>(t, "law", m.law, true, {{Law::mooney_rivlin, {"xi"}}});
+  t.require("density", m.density, {.above = 0});
+  const bool young = t.require("youngs_modulus", m.youngs_modulus, {.above = 0});
+  const bool poisson = t.require("poissons_ratio", m.poissons_ratio, {.above = -1, .below = 0.5});
+  if (law && m.law == Law::mooney_rivlin && t.require("xi", m.xi, {.from = 0}) && young && poisson) {
+    const double limit = m.youngs_modulus / (2 * (1 + m.poissons_ratio)) / (3 * std::sqrt(3.0));  // 2 zeta = mu - 3 sqrt(3) xi stays positive
+    if (!(m.xi < limit)) t.fail("xi", fmt::format("must be below mu / (3 sqrt(3)) = {:.6g}", limit));
+  }
+  const bool volumetric = t.read("volumetric", m.volumetric), isochoric = t.read("isochoric", m.isochoric);
+  if (!law || m.law != Law::linear_elastic) return;
+  const auto refuse = [&](std::string_view key, std::string_view allowed) {
+    t.fail(key, fmt::format("has no meaning for linear_elastic, allowed: {}", allowed));
+  };
+  if (volumetric && m.volumetric != MaterialSpec{}.volumetric) refuse("volumetric", word(MaterialSpec{}.volumetric));
+  if (isochoric && m.isochoric != MaterialSpec{}.isochoric) refuse("isochoric", word(MaterialSpec{}.isochoric));
+}
+
+void read_physics(Table& t, PhysicsSpec& p) {
+  t.read("formulation", p.formulation);
+  t.read("stabilisation", p.stabilisation);
+  t.read("pressure_jump", p.pressure_jump);
+  t.read("reconstruction", p.reconstruction);
+  t.read("flux_correction", p.flux_correction);
+  t.read("boundary_flux", p.boundary_flux);
+  t.read("upwind_metric", p.upwind_metric);        // both words also with linear_elastic: there H = I and they agree
+  t.read("entropy_fix", p.entropy_fix);
+  const bool corrected = t.sound("flux_correction") && p.flux_correction != FluxCorrection::none;
+  if (corrected && t.sound("reconstruction") && p.reconstruction == Reconstruction::constant)
+    t.fail("flux_correction", "needs reconstruction = \"linear\" or \"limited\": the correction is made of its gradients");
+  if (t.sound("pressure_jump") && p.pressure_jump == PressureJump::tensor && (p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none))
+    t.fail("pressure_jump", fmt::format("is not built with limited or entropy_fix; {}", what_is_built));
+  if (t.sound("stabilisation") && p.stabilisation == Stabilisation::jst &&
+      (p.reconstruction != Reconstruction::linear || p.flux_correction != FluxCorrection::none || p.pressure_jump != PressureJump::scalar ||
+       p.entropy_fix != EntropyFix::none || p.upwind_metric != UpwindMetric::deformed))
+    t.fail("stabilisation", fmt::format("jst has no reconstruction, flux_correction, pressure_jump, upwind_metric or entropy_fix to choose; {}", what_is_built));
+}
+
+void read_initial(Table& t, InitialSpec& s) {
+  using enum InitialField;
+  const bool known = read_kind<InitialField>(t, "field", s.field, false,
+                                             {{velocity, {"v"}},
+                                              {rotation, {"omega", "centre"}},
+                                              {twist, {"omega", "height"}},
+                                              {plate_mode, {"amplitude", "omega", "B"}},
+                                              {standing_wave, {"amplitude", "J"}},
+                                              {plane_wave, {"amplitude", "length", "direction", "J"}}});
+  if (!known) return;
+  if (s.field == velocity) t.require("v", s.v);
+  if (s.field == rotation) read_rotation(t, s);
+  if (s.field == twist) {
+    t.require("omega", s.twist_omega);
+    if (t.require("height", s.height) && s.height == 0) t.fail("height", "must not be zero");
+  }
+  if (s.field == plate_mode) {
+    t.require("amplitude", s.amplitude);
+    t.require("omega", s.mode_omega);
+    t.require("B", s.B);
+  }
+  if (s.field == standing_wave || s.field == plane_wave) {
+    t.require("amplitude", s.amplitude);
+    t.read("J", s.J);
+  }
+  if (s.field == plane_wave) {
+    t.require("length", s.length, {.above = 0});
+    if (t.read("direction", s.direction) && !normalise(s.direction)) t.fail("direction", "must not be zero");
+  }
+}
+
+void read_time(Table& t, TimeSpec& s) {
+  t.require("end", s.end, {.above = 0});
+  t.read("integrator", s.integrator);
+  if (s.integrator == Integrator::ssp_rk3) s.cfl = 0.6;
+  t.read("cfl", s.cfl, {.above = 0, .to = 2});     // no explicit scheme is stable above: larger is a slip of the pen
+  t.read("step", s.step);
+  t.read("dt_max", s.dt_max, {.above = 0});
+  t.read("dt_collapse", s.dt_collapse, {.above = 0, .below = 1});
+  t.read("max_steps", s.max_steps, {.from = 0});
+  t.read("max_wall_s", s.max_wall_s, {.from = 0});
+}
+
+void read_monitor(Table& t, MonitorSpec& m) {
+  t.read("energy", m.energy);
+  t.read("energy_growth", m.energy_growth);
+  t.read("energy_tolerance", m.energy_tolerance, {.above = 0});
+}
+
+void check_together(Table& root, const Scene& s) {
+  // A section is reached through a table of its own: what it does not read here was reported before.
+  const auto at = [&](std::string_view section, std::string_view key, std::string_view why) {
+    if (const auto* t = root.find(section) ? root.find(section)->as_table() : nullptr) Table(*t, root.path(section), root.diagnostics()).fail(key, why);
+  };
+  const auto sound = [&](const std::string& path) { return !root.diagnostics().wrong.contains(path); };
+  if (sound("physics.formulation") && s.physics.formulation == Formulation::pF) {
+    const std::string_view why = "needs an evolved J, which formulation = \"pF\" does not carry";
+    if (s.material.isochoric == Isochoric::J) at("material", "isochoric", why);
+    if (s.initial.J == InitialJ::det) at("initial", "J", why);
+    if (s.physics.pressure_jump == PressureJump::tensor) at("physics", "pressure_jump", why);
+  }
+  if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
+    at("monitor", "energy", "audits the upwind stabilisation only, not jst");
+  const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
+  if (wave && sound("material.law") && s.material.law != Law::linear_elastic)
+    at("initial", "field", "needs material.law = \"linear_elastic\": its exact solution is linear");
+}
+
+}  // namespace nanson

@@ -1,0 +1,39 @@
+// The handler and its flag.
+#include "io/signals.hpp"
+
+#include <array>
+#include <csignal>
+
+namespace nanson {
+namespace {
+
+constexpr std::array stopping{SIGINT, SIGTERM, SIGXCPU};
+volatile std::sig_atomic_t received = 0;
+volatile std::sig_atomic_t caught[stopping.size()] = {};  // those that were not ignored when the run began (nohup, background jobs)
+
+extern "C" void note_signal(int signal) {
+  received = signal;
+  for (std::size_t i = 0; i < stopping.size(); ++i)
+    if (caught[i]) std::signal(stopping[i], SIG_DFL);
+}
+
+}  // namespace
+
+void catch_stop_signals() {
+  received = 0;
+  for (std::size_t i = 0; i < stopping.size(); ++i) {
+    struct sigaction before {};
+    struct sigaction now {};
+    now.sa_handler = note_signal;
+    now.sa_flags = SA_RESTART;
+    for (const int other : stopping) sigaddset(&now.sa_mask, other);
+    sigaction(stopping[i], nullptr, &before);
+    caught[i] = before.sa_handler != SIG_IGN;
+    if (caught[i]) sigaction(stopping[i], &now, nullptr);
+  }
+  std::signal(SIGXFSZ, SIG_IGN);
+}
+
+int stop_signal() { return received; }
+
+}  // namespace nanson

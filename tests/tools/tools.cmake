@@ -1,0 +1,25 @@
+# The launcher, results read with other programs, where these are installed, and the build's provenance script.
+add_test(NAME Launcher COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/launcher_test.sh)
+
+add_executable(write_sample tests/tools/write_sample.cpp)
+target_link_libraries(write_sample PRIVATE nanson_io)
+
+# Debian's own python: another one that comes first in the path may lack h5py
+find_program(NANSON_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
+if(NANSON_PYTHON)
+  execute_process(COMMAND ${NANSON_PYTHON} -c "import h5py, numpy" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
+  if(missing EQUAL 0)
+    add_test(NAME Results.ReadWithH5py
+             COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/read_with_h5py.py $<TARGET_FILE:write_sample>)
+  endif()
+endif()
+
+find_program(NANSON_PVPYTHON pvpython)
+if(NANSON_PVPYTHON)
+  add_test(NAME Results.ReadWithParaView
+           COMMAND ${NANSON_PVPYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/read_with_paraview.py $<TARGET_FILE:write_sample>)
+endif()
+
+add_test(NAME Provenance.ScriptWithoutGitAndWithoutChange
+         COMMAND ${CMAKE_COMMAND} -DSCRIPT=${CMAKE_CURRENT_SOURCE_DIR}/cmake/provenance.cmake -DCOMPILER=${CMAKE_CXX_COMPILER}
+                 -DWORK=${CMAKE_CURRENT_BINARY_DIR}/provenance_test -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/check_provenance.cmake)
