@@ -1,0 +1,204 @@
+// Each sweep by itself, one thread, for every trait that it branches on, on a deformed alternating box. Before it is timed, one stage with the same sweeps is
+// compared with the plain loop.
+#include <cmath>
+#include <memory>
+
+#include "bench/bench.hpp"
+#include "bench/counted.hpp"
+#include "bench/naive_loop.hpp"
+#include "engine/parts.hpp"
+
+namespace nanson {
+namespace {
+
+/// A simulation that carries every row, so that any set of sweeps can run on it.
+struct Bed {
+  Scene scene;
+  Mesh mesh;
+  Simulation s;
+
+  Bed() {
+    const int n = options().cells;
+    scene.mesh.size = {1, 1, 1}, scene.mesh.cells = {n, n, n};
+    scene.material.density = 1100, scene.material.youngs_modulus = 17e6, scene.material.poissons_ratio = 0.495, scene.material.xi = 2e5;
+    scene.physics.formulation = Formulation::pFHJ, scene.physics.pressure_jump = PressureJump::tensor, scene.physics.flux_correction = FluxCorrection::full;
+    mesh = box_mesh(scene.mesh);
+    s = make_simulation(scene, mesh, 1);
+    deform();
+  }
+
+  /// Smooth velocities and a finite deformation; det F, J and H a little apart.
+  void deform() {
+    for (int r = 0; r < s.order.rows; ++r) {
+      const double* X = &s.state.X[static_cast<std::size_t>(row::X * r)];
+      double *U = &s.state.U[0][static_cast<std::size_t>(row::U * r)], *H = &s.state.H[0][static_cast<std::size_t>(row::H * r)];
+      const auto wave = [&](int k) { return std::sin(k + 3 * X[k % 3] + 2 * X[(k + 1) % 3]); };
+      for (int i = 0; i < 3; ++i) U[i] = 10 * wave(i);
+      U[3] = 1 + 0.02 * wave(3);
+      for (int m = 0; m < 9; ++m) U[4 * (m / 3 + 1) + m % 3] += 0.1 * wave(4 + m), H[4 * (m / 3) + m % 3] += 0.1 * wave(13 + m);
+    }
+  }
+
+  void choose(const PhysicsSpec& p, const MaterialSpec& m) {
+    scene.physics = p, scene.material = m;
+    s.functions = find_part_functions(p, m);
+    s.coefficients.material = constants_of(m);
+    s.coefficients.deformed_metric = p.upwind_metric == UpwindMetric::deformed;
+  }
+
+  /// Rows of the first stage of a step.
+  Rows rows() {
+    State& u = s.state;
+    return {u.X.data(), u.U[0].data(), u.U[0].data(), u.H[0].data(), u.H[0].data(), u.W[0].data(), u.PH[0].data(), u.G.data(), u.Q.data(),
+            u.GP.data(), u.loads.data(), u.U[1].data(), u.H[1].data(), u.W[1].data(), u.PH[1].data()};
+  }
+  Coefficients coefficients(double dt) {
+    Coefficients k = s.coefficients;
+    k.dt = dt;
+    return k;
+  }
+
+  template <class Sweep>
+  void over_parts(Sweep sweep) {
+    for (const Part& p : s.order.parts) sweep(p, scratch_of(s, 0));
+  }
+  void start() {  // stress of the start
+    Rows r = rows();
+    r.U_new = s.state.U[0].data(), r.H_new = s.state.H[0].data(), r.W_new = s.state.W[0].data(), r.PH_new = s.state.PH[0].data();
+    over_parts([&](const Part& p, Scratch) { s.functions.stress(p, r, s.coefficients, s.state.step_length.data()); });
+  }
+  void gradient() {
+    over_parts([&](const Part& p, Scratch) { s.functions.gradient(p, s.order.edges(), s.order.corners(), s.order.lists(), rows(), s.coefficients); });
+  }
+  void flux(const Part& p, Scratch scratch) { s.functions.edge_flux(p, s.order.edges(), s.order.corners(), s.order.lists(), rows(), s.coefficients, scratch); }
+  void update(const Part& p, Scratch scratch, double dt) {
+    s.functions.accumulate_update(p, s.order.edges(), s.order.lists(), rows(), coefficients(dt), s.boundary.constraints.data(), s.state.reactions.data(), scratch);
+  }
+  void stress(const Part& p) { s.functions.stress(p, rows(), s.coefficients, s.state.step_length.data()); }
+  double dissipation() {
+    double power = 0;
+    over_parts([&](const Part& p, Scratch) { power += s.functions.dissipation(p, s.order.edges(), s.order.lists(), rows(), s.coefficients); });
+    return power;
+  }
+
+  /// Difference to the plain loop after one stage, and of the stabilisation's power.
+  double difference() {
+    const double dt = 1e-3 / (options().cells * s.coefficients.material.cp);
+    start(), gradient();
+    over_parts([&](const Part& p, Scratch scratch) { flux(p, scratch), update(p, scratch, dt), stress(p); });
+    NaiveLoop naive = make_naive_loop(s);
+    const double power = naive_dissipation(naive), of_power = std::abs(dissipation() / power - 1);
+    naive_stage(naive, 0, dt);
+    return std::max(of_power, largest_difference(naive, naive.stage, s.state.U[1].data(), s.state.W[1].data(), s.state.PH[1].data()));
+  }
+};
+
+Bed& bed() {
+  static auto all = std::make_unique<Bed>();
+  return *all;
+}
+
+/// Checks, then times `sweep` one by one; the median counts.
+template <class Sweep, class Model>
+void time_sweep(benchmark::State& state, const PhysicsSpec& p, const MaterialSpec& m, Sweep sweep, Model model) {
+  Bed& b = bed();
+  b.choose(p, m);
+  const double difference = b.difference();
+  if (!(difference < same)) return state.SkipWithError("differs from the plain loop");
+  std::vector<double> seconds;
+  for (auto _ : state) {
+    const double start = thread_seconds();
+    sweep(b);
+    seconds.push_back(thread_seconds() - start);
+  }
+  set_columns(state, median(seconds), b.s.order.nodes, model(Sizes(b.s.order)), 1);
+}
+
+template <class Sweep, class Model>
+void add(const std::string& name, const PhysicsSpec& p, const MaterialSpec& m, Sweep sweep, Model model) {
+  benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { time_sweep(state, p, m, sweep, model); })->Unit(benchmark::kMillisecond);
+}
+
+MaterialSpec material_of(Law law, Volumetric volumetric = Volumetric::quadratic, Isochoric isochoric = Isochoric::F) {
+  return {law, 1100, 17e6, 0.495, 2e5, volumetric, isochoric};
+}
+
+std::string traits_of(const PhysicsSpec& p) {
+  std::string out;
+  for (auto w : {word(p.reconstruction), word(p.flux_correction), word(p.formulation == Formulation::pFHJ ? Formulation::pFJ : p.formulation),
+                 word(p.pressure_jump), word(p.upwind_metric)})
+    out += "/" + std::string(w);
+  return out;
+}
+
+void register_edge_sweeps() {
+  for (auto metric : {UpwindMetric::deformed, UpwindMetric::paper})
+    for (auto [formulation, jump] : {std::pair(Formulation::pF, PressureJump::scalar), std::pair(Formulation::pFJ, PressureJump::scalar),
+                                     std::pair(Formulation::pFJ, PressureJump::tensor)})
+      for (auto [reconstruction, correction] : {std::pair(Reconstruction::constant, FluxCorrection::none), std::pair(Reconstruction::linear, FluxCorrection::none),
+                                                std::pair(Reconstruction::linear, FluxCorrection::pressure), std::pair(Reconstruction::linear, FluxCorrection::full)}) {
+        const PhysicsSpec p{formulation, jump, reconstruction, correction, BoundaryFlux::adjoint, metric};
+        const MaterialSpec m = material_of(Law::neo_hookean);
+        add("edge_flux" + traits_of(p), p, m, [](Bed& b) { b.over_parts([&](const Part& part, Scratch scratch) { b.flux(part, scratch); }); },
+            [p](const Sizes& s) { return edge_flux_work(Carried(p), s); });
+        if (correction == FluxCorrection::none)
+          add("dissipation" + traits_of(p), p, m, [](Bed& b) { benchmark::DoNotOptimize(b.dissipation()); },
+              [p](const Sizes& s) { return dissipation_work(p, s, static_cast<double>(bed().s.edges)); });
+      }
+}
+
+void register_gradients() {
+  for (auto jump : {PressureJump::scalar, PressureJump::tensor})
+    for (auto correction : {FluxCorrection::none, FluxCorrection::full}) {
+      const PhysicsSpec p{Formulation::pFJ, jump, Reconstruction::linear, correction, BoundaryFlux::adjoint, UpwindMetric::deformed};
+      add("gradient/" + std::string(word(jump)) + "/" + std::string(word(correction)), p, material_of(Law::neo_hookean), [](Bed& b) { b.gradient(); },
+          [p](const Sizes& s) { return gradient_work(Carried(p), s); });
+    }
+}
+
+void register_updates() {
+  for (auto formulation : {Formulation::pF, Formulation::pFJ, Formulation::pFHJ})
+    for (auto correction : {FluxCorrection::none, FluxCorrection::pressure}) {
+      const PhysicsSpec p{formulation, PressureJump::scalar, Reconstruction::linear, correction, BoundaryFlux::adjoint, UpwindMetric::deformed};
+      add("accumulate_update/" + std::string(word(formulation)) + (correction == FluxCorrection::none ? "" : "/corrected"), p, material_of(Law::neo_hookean),
+          [](Bed& b) { b.over_parts([&](const Part& part, Scratch scratch) { b.update(part, scratch, 1e-9); }); },
+          [p](const Sizes& s) { return accumulate_update_work(Carried(p), s, true); });
+    }
+}
+
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+void register_stress() {
+  PhysicsSpec p;
+  p.formulation = formulation;
+  const MaterialSpec m = material_of(law, volumetric, isochoric);
+  std::string name = "stress";
+  for (auto w : {word(law), word(volumetric), word(isochoric), word(formulation)}) name += "/" + std::string(w);
+  add(name, p, m, [](Bed& b) { b.over_parts([&](const Part& part, Scratch) { b.stress(part); }); },
+      [p, m](const Sizes& s) { return stress_work(Carried(p), s, flops_of_law<law, volumetric, isochoric, formulation>(constants_of(m)), true); });
+}
+
+template <Law law, Volumetric volumetric>
+void register_finite_strain() {
+  register_stress<law, volumetric, Isochoric::F, Formulation::pF>();
+  register_stress<law, volumetric, Isochoric::F, Formulation::pFJ>();
+  register_stress<law, volumetric, Isochoric::F, Formulation::pFHJ>();
+  register_stress<law, volumetric, Isochoric::J, Formulation::pFJ>();
+  register_stress<law, volumetric, Isochoric::J, Formulation::pFHJ>();
+}
+
+}  // namespace
+
+void register_sweeps() {
+  register_gradients();
+  register_edge_sweeps();
+  register_updates();
+  register_stress<Law::linear_elastic, Volumetric::quadratic, Isochoric::F, Formulation::pF>();
+  register_stress<Law::linear_elastic, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>();
+  register_stress<Law::linear_elastic, Volumetric::quadratic, Isochoric::F, Formulation::pFHJ>();
+  register_finite_strain<Law::neo_hookean, Volumetric::quadratic>();
+  register_finite_strain<Law::neo_hookean, Volumetric::barrier>();
+  register_finite_strain<Law::mooney_rivlin, Volumetric::quadratic>();
+  register_finite_strain<Law::mooney_rivlin, Volumetric::barrier>();
+}
+
+}  // namespace nanson

@@ -1,0 +1,105 @@
+// Byte and flop models of the sweeps, from the traits alone.
+// Bytes: what a sweep must move between DRAM and the caches when every row is fetched once. A row that is written without having been read counts twice, because its
+// cache lines are fetched first; neighbours' rows count once a sweep (parts and their halo stay in cache); part-local buffers stay in L2 and do not count.
+// Flops: additions, multiplications, divisions, roots and comparisons of the formulas, an fma two, padding lanes none. Edges between parts count in both.
+#pragma once
+#include "engine/order.hpp"
+#include "engine/scene.hpp"
+
+namespace nanson {
+
+struct Work {
+  double bytes = 0, flops = 0;
+};
+inline Work operator+(Work a, Work b) { return {a.bytes + b.bytes, a.flops + b.flops}; }
+inline Work operator*(double s, Work a) { return {s * a.bytes, s * a.flops}; }
+
+/// How many of everything an order has.
+struct Sizes {
+  double nodes, edges, in_edges, corners;
+  explicit Sizes(const Order& o) : nodes(o.nodes), edges(o.out.back()), in_edges(o.in.back()), corners(o.corner.back()) {}
+};
+
+/// What the traits mean for the counts: numbers in {v, Sigma_J} that matter, and which rows exist.
+struct Carried {
+  bool linear, J, H, tensor, full, corrected, pressure, deformed;
+  double w;  // 3 or 4
+  explicit Carried(const PhysicsSpec& p)
+      : linear(p.reconstruction == Reconstruction::linear), J(p.formulation != Formulation::pF), H(p.formulation == Formulation::pFHJ),
+        tensor(J && p.pressure_jump == PressureJump::tensor), full(p.flux_correction == FluxCorrection::full), corrected(p.flux_correction != FluxCorrection::none),
+        pressure(p.flux_correction == FluxCorrection::pressure), deformed(p.upwind_metric == UpwindMetric::deformed), w(J || pressure ? 4 : 3) {}
+};
+
+namespace bytes {
+inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, Q = 96, GP = 288, step_length = 8;
+inline constexpr double lists = 12;                                  // out, in, corner
+inline constexpr double edge = 28, edge_size = 8, in_edge = 8;       // b, C; |C|; edge number and a
+inline constexpr double corner = 32, corner_load = 4;                // b, c, C; load
+}  // namespace bytes
+
+/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, Q.
+inline Work gradient_work(const Carried& c, const Sizes& s) {
+  const bool of_P = c.full || (c.tensor && c.linear), stores_GP = c.tensor && c.linear;
+  const double half_edges = s.edges + s.in_edges;
+  Work out;
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::lists + 2 * bytes::G + (of_P ? bytes::PH : 0) + (stores_GP ? 2 * bytes::GP : 0) + (c.full ? 2 * bytes::Q : 0)) +
+              s.edges * bytes::edge + s.in_edges * bytes::in_edge + s.corners * bytes::corner;
+  const double numbers = c.w + (of_P ? 9 : 0);
+  out.flops = half_edges * numbers * (1 + 6) + s.corners * numbers * (4 + 6) + s.nodes * 3 * numbers;  // difference, 3 fma; mean of two; scaling
+  if (c.full) out.flops += half_edges * (3 + 9 * (1 + 6) + 18 + 18) + s.nodes * 18;                     // D; P_a - P_b + D . grad P; times C; (x) D
+  return out;
+}
+
+/// edge_flux_part: reads W, X, PH, G, GP, Q and the edges; its buffer stays in L2.
+inline Work edge_flux_work(const Carried& c, const Sizes& s) {
+  const double n = c.w;
+  Work out;
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::Q : 0)) +
+              s.edges * (bytes::edge + bytes::edge_size) + s.corners * (bytes::corner + bytes::corner_load);
+  double flops = 3 * (6 + 1 + 12) + n;                                  // averages of P and H times C; jump
+  if (c.linear) flops += 3 + 3 * n + 6 * n + 2 * n;                     // D; G_a + G_b; times D; subtracted
+  if (c.corrected) flops += 3 * n + 6 * n + n;                          // q
+  flops += 5 + 2 + 2 + 2 + (c.deformed ? 2 : 0) + 6 + 12;               // c.c; shear; 1/(c.c cn); normal; root and comparison; (c.d); D^p
+  if (c.J) flops += 3 + 2;                                              // D^J
+  if (c.pressure) flops += 1;
+  if (c.full) flops += 9 + 3 + 18;                                      // average of Q times C
+  if (c.tensor) flops += 9 * (1 + 2) + 5 + 1 + (c.linear ? 9 * 3 * 3 : 0);  // jump of P times C, along c
+  out.flops = s.edges * flops + s.corners * 9 * 5;
+  return out;
+}
+
+/// accumulate_update_part: reads the old state and the stage's, H, G and X, and writes the new state: three state rows in every stage, since what is written fresh
+/// in the first (twice) is read before it is written in the others. `alone`: as a sweep of its own; in the fused step X, G and PH are in L2 already.
+inline Work accumulate_update_work(const Carried& c, const Sizes& s, bool alone) {
+  const double half_edges = s.edges + s.in_edges, numbers = 15 + (c.J ? 1 : 0) + (c.H ? 9 : 0);
+  Work out;
+  out.bytes = s.nodes * (3 * (bytes::U + (c.H ? bytes::H : 0)) + bytes::lists + (alone ? bytes::X + bytes::G + (c.J ? bytes::PH : 0) : 0)) + s.in_edges * 4;
+  if (alone && c.corrected) out.bytes += s.edges * (bytes::edge - 4);
+  out.flops = (half_edges + s.corners) * (c.J ? 4 : 3) + s.nodes * (5 * numbers + 11);         // sums; U_new; body force and rates of v and J
+  out.flops += s.nodes * ((c.J ? 18 : 0) + (c.H ? 63 : 0)) + (c.corrected ? half_edges * 18 + s.nodes * 18 : 0);  // H : G; F x G; correction of G
+  return out;
+}
+
+/// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by bench/counted.hpp.
+inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {
+  return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + 2 * bytes::W + 2 * bytes::PH), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
+}
+
+/// dissipation_part: reads what edge_flux reads; each edge between parts is counted once and skipped once.
+inline Work dissipation_work(const PhysicsSpec& p, const Sizes& s, double mesh_edges) {
+  PhysicsSpec plain = p;
+  plain.flux_correction = FluxCorrection::none;
+  Sizes counted = s;
+  counted.corners = 0;
+  Work out = edge_flux_work(Carried(plain), counted);
+  out.flops *= mesh_edges / s.edges;
+  return out;
+}
+
+/// A step of the fused schedule with linear reconstruction: two sweeps a stage.
+inline Work step_work(const PhysicsSpec& p, const Sizes& s, double law_flops, int stages) {
+  const Carried c(p);
+  return stages * (gradient_work(c, s) + edge_flux_work(c, s) + accumulate_update_work(c, s, false) + stress_work(c, s, law_flops, false));
+}
+
+}  // namespace nanson

@@ -1,0 +1,72 @@
+// The plain loop that tests trust and benches compare with: serial, scalar, edge scatter, four passes a stage, no prefetch, the node order of the engine.
+// Written from the formulas of the paper and of method.md, not from kernels/; only the material laws are shared, which have unit tests of their own.
+#pragma once
+#include <array>
+#include <vector>
+
+#include "engine/solver.hpp"
+
+namespace nanson {
+
+struct NaiveNode {
+  double v[3];                    // [m/s]
+  double J;
+  double F[3][3];                 // F[i][I]
+  double x[3];                    // [m]
+};
+struct NaiveStress {
+  double P[3][3], H[3][3];        // [Pa], [-]
+};
+struct NaiveEdge {
+  int a, b;
+  double C[3], size;              // [m^2] from a to b, |C|
+};
+struct NaiveCorner {
+  int a, b, c;
+  double C[3];                    // [m^2] outward, a third of the face
+};
+
+template <int rows, int columns>
+using Table = std::array<std::array<double, columns>, rows>;
+
+struct NaiveLoop {
+  const Scene* scene = nullptr;
+  MaterialConstants material;
+  std::vector<int> row;                            // node -> row of the simulation that it was made from
+  std::vector<Vec3> X;                             // [m]
+  std::vector<double> volume, step_length;         // [m^3], [m]
+  std::vector<NaiveEdge> edges;                    // each once, sorted by (a, b)
+  std::vector<NaiveCorner> corners;
+  std::vector<Constraint> constraints;             // node numbers are those of this loop
+  std::vector<LoadedFace> loaded;
+
+  std::vector<NaiveNode> now, stage;               // U^n, and the state of a stage
+  std::vector<Table<3, 3>> H_now, H_stage;         // pFHJ
+  std::vector<std::array<double, 4>> W;            // {v, Sigma_J}
+  std::vector<NaiveStress> stress;
+  std::vector<Table<4, 3>> G;                      // grad of {v, Sigma_J}
+  std::vector<Table<9, 3>> GP;                     // grad of P, tensor jump or full correction
+  std::vector<Table<3, 3>> Q;                      // corrected stress, full correction
+  std::vector<Table<3, 3>> dG;                     // correction of the velocity gradient [m^3/s], flux correction
+  std::vector<std::array<double, 4>> force;        // {force [N], J source [m^3/s]}
+  double t = 0;                                    // [s]
+  PartReport report;                               // of the present state
+};
+
+/// The same state, geometry, supports and loads as a simulation.
+NaiveLoop make_naive_loop(const Simulation& s);
+
+/// Stage `number` of a step of size dt from n.t: the first writes n.stage, the last n.now; then the stress of what was written.
+void naive_stage(NaiveLoop& n, int number, double dt);
+
+/// One step of the scene's integrator.
+void naive_advance(NaiveLoop& n, double dt);
+
+/// Power that the stabilisation takes out of the present state's edges [W].
+double naive_dissipation(NaiveLoop& n);
+
+/// Largest difference to the rows {U, W, PH} over v, J, F, x, H, Sigma_J and P, each relative to the largest value of its field; or to a simulation.
+double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U, const double* W, const double* PH);
+double largest_difference(const NaiveLoop& n, const Simulation& s);
+
+}  // namespace nanson

@@ -1,0 +1,175 @@
+// The fast solver against the plain loop of bench/naive_loop: the same numbers for every combination that is built.
+#include <gtest/gtest.h>
+
+#include <random>
+#include <string>
+
+#include "bench/naive_loop.hpp"
+
+namespace nanson {
+namespace {
+
+constexpr double tolerance = 1e-13;  // relative to the largest value of each field
+
+Named name_of(const char* face) { return {face, ""}; }
+
+/// A perturbed alternating box with every kind of support and load: two parts with 12 x 12 x 12 nodes.
+Scene loaded_box(std::array<int, 3> cells) {
+  Scene s;
+  s.mesh.origin = {-0.3, 0.1, 0.2}, s.mesh.size = {1.0, 1.2, 0.9}, s.mesh.cells = cells, s.mesh.perturb = 0.2;
+  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.4;
+  s.body_force = {0.5, -9.81, 2.0};
+  BoundarySpec fixed, symmetric, skew, traction, pressure, velocity;
+  fixed.kind = BoundaryKind::fixed, fixed.faces = {name_of("zmin")};
+  symmetric.kind = BoundaryKind::symmetric, symmetric.faces = {name_of("xmin")};
+  skew.kind = BoundaryKind::skew_symmetric, skew.faces = {name_of("ymin")};
+  traction.kind = BoundaryKind::traction, traction.faces = {name_of("xmax")}, traction.traction = {2e5, -1e5, 3e5};
+  traction.time.kind = TimeKind::ramp, traction.time.until = 1e-3;
+  pressure.kind = BoundaryKind::pressure, pressure.faces = {name_of("ymax"), name_of("xmax")}, pressure.pressure = 4e5;
+  velocity.kind = BoundaryKind::velocity, velocity.faces = {name_of("zmax")}, velocity.velocity = {3.0, 0.0, -2.0}, velocity.held = {true, false, true};
+  velocity.time.kind = TimeKind::sine, velocity.time.frequency = 400, velocity.time.phase = 0.3;
+  s.boundary = {fixed, symmetric, skew, traction, pressure, velocity};
+  return s;
+}
+
+Mesh mesh_of(const Scene& s) {
+  std::vector<std::string> errors;
+  Mesh mesh = finish_mesh(make_box(s.mesh), errors);
+  EXPECT_TRUE(errors.empty());
+  return mesh;
+}
+
+/// Everything that is carried takes random values, det F, J and H apart from each other; then the stress of that state.
+void shake(Simulation& s) {
+  std::mt19937_64 random(7);
+  const auto uniform = [&](double size) { return size * (static_cast<double>(random() >> 11) * 0x1p-52 - 1); };
+  State& u = s.state;
+  for (int n = 0; n < s.order.nodes; ++n) {
+    const auto r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
+    double* U = &u.U[0][row::U * r];
+    for (int i = 0; i < 3; ++i) U[i] = uniform(5.0);
+    U[3] = 1 + uniform(0.1);
+    for (int m = 0; m < 9; ++m) U[4 * (m / 3 + 1) + m % 3] += uniform(0.1);
+    for (int I = 0; I < 3; ++I) U[4 * (I + 1) + 3] += uniform(0.01);
+    for (int m = 0; m < 9 && !u.H[0].empty(); ++m) u.H[0][row::H * r + 4 * (m / 3) + m % 3] += uniform(0.1);
+  }
+  Rows rows{};
+  rows.X = u.X.data(), rows.U_new = u.U[0].data(), rows.H_new = u.H[0].data(), rows.W_new = u.W[u.now].data(), rows.PH_new = u.PH[u.now].data();
+  for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = s.functions.stress(s.order.parts[p], rows, s.coefficients, u.step_length.data());
+}
+
+/// Power of the stabilisation over all parts, after the gradients of the present state.
+double dissipation_of(Simulation& s) {
+  State& u = s.state;
+  Rows rows{};
+  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = u.G.data(), rows.Q = u.Q.data(), rows.GP = u.GP.data();
+  const auto edges = s.order.edges();
+  const auto lists = s.order.lists();
+  double power = 0;
+  for (const Part& p : s.order.parts)
+    if (!u.G.empty()) s.functions.gradient(p, edges, s.order.corners(), lists, rows, s.coefficients);
+  for (const Part& p : s.order.parts) power += s.functions.dissipation(p, edges, lists, rows, s.coefficients);
+  return power;
+}
+
+/// Largest relative difference after some steps from a random state.
+double difference_after(const Scene& scene, const Mesh& mesh, int steps, int threads, std::size_t least_parts) {
+  Simulation fast = make_simulation(scene, mesh, threads);
+  EXPECT_GE(fast.order.parts.size(), least_parts);
+  shake(fast);
+  NaiveLoop naive = make_naive_loop(fast);
+  EXPECT_NEAR(dissipation_of(fast) / naive_dissipation(naive), 1, 1e-12);
+  fast.dt = 0.5 * allowed_step(fast);
+  for (int i = 0; i < steps; ++i) {
+    naive_advance(naive, fast.dt);
+    advance(fast);
+  }
+  EXPECT_FALSE(fast.breakdown.has_value());
+  EXPECT_NEAR(naive.report.fastest * allowed_step(fast) / scene.time.cfl, 1, 1e-12);
+  return largest_difference(naive, fast);
+}
+
+template <class Choice>
+std::vector<Choice> all_of() {
+  std::vector<Choice> all;
+  for (std::size_t i = 0; i < words(Choice{}).size(); ++i) all.push_back(static_cast<Choice>(i));
+  return all;
+}
+
+/// Every set of sweeps that is built for a formulation.
+std::vector<PhysicsSpec> sweeps_of(Formulation formulation) {
+  std::vector<PhysicsSpec> all;
+  for (auto reconstruction : all_of<Reconstruction>())
+    for (auto correction : all_of<FluxCorrection>())
+      for (auto jump : all_of<PressureJump>())
+        for (auto metric : all_of<UpwindMetric>())
+          for (auto boundary : all_of<BoundaryFlux>()) {
+            if (reconstruction == Reconstruction::constant && correction != FluxCorrection::none) continue;
+            if (formulation == Formulation::pF && jump == PressureJump::tensor) continue;  // pF has no jump of pressure
+            all.push_back({formulation, jump, reconstruction, correction, boundary, metric});
+          }
+  return all;
+}
+
+std::string text_of(const PhysicsSpec& p) {
+  std::string out;
+  for (auto w : {word(p.formulation), word(p.pressure_jump), word(p.reconstruction), word(p.flux_correction), word(p.boundary_flux), word(p.upwind_metric)})
+    out += std::string(out.empty() ? "" : "_") + std::string(w);
+  return out;
+}
+
+struct MaterialCase {
+  Formulation formulation;
+  Law law;
+  Volumetric volumetric;
+  Isochoric isochoric;
+};
+
+std::vector<MaterialCase> materials() {
+  std::vector<MaterialCase> all;
+  for (auto formulation : all_of<Formulation>())
+    for (auto law : all_of<Law>())
+      for (auto volumetric : all_of<Volumetric>())
+        for (auto isochoric : all_of<Isochoric>()) {
+          if (law == Law::linear_elastic && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) continue;
+          if (formulation == Formulation::pF && isochoric != Isochoric::F) continue;
+          all.push_back({formulation, law, volumetric, isochoric});
+        }
+  return all;
+}
+
+class Reference : public testing::TestWithParam<MaterialCase> {};
+
+TEST_P(Reference, EveryBuiltCombinationGivesTheNumbersOfThePlainLoop) {
+  const MaterialCase c = GetParam();
+  Scene scene = loaded_box({11, 11, 11});
+  scene.material.law = c.law, scene.material.volumetric = c.volumetric, scene.material.isochoric = c.isochoric;
+  if (c.law == Law::mooney_rivlin) scene.material.xi = 2e5;
+  const Mesh mesh = mesh_of(scene);
+  for (const PhysicsSpec& p : sweeps_of(c.formulation)) {
+    scene.physics = p;
+    EXPECT_LT(difference_after(scene, mesh, 3, 1, 2), tolerance) << text_of(p);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Materials, Reference, testing::ValuesIn(materials()), [](const auto& info) {
+  const MaterialCase& c = info.param;
+  return std::string(word(c.formulation)) + "_" + std::string(word(c.law)) + "_" + std::string(word(c.volumetric)) + "_" + std::string(word(c.isochoric));
+});
+
+TEST(Reference, BothIntegratorsGiveTheNumbersOfThePlainLoopOnManyParts) {
+  Scene scene = loaded_box({15, 15, 16});
+  const Mesh mesh = mesh_of(scene);
+  for (auto integrator : {Integrator::tvd_rk2, Integrator::ssp_rk3})
+    for (auto formulation : all_of<Formulation>())
+      for (auto correction : all_of<FluxCorrection>()) {
+        scene.time.integrator = integrator;
+        scene.physics = {};
+        scene.physics.formulation = formulation, scene.physics.flux_correction = correction;
+        const int threads = correction == FluxCorrection::none ? 2 : 1;
+        EXPECT_LT(difference_after(scene, mesh, 4, threads, 4), tolerance) << word(integrator) << " " << text_of(scene.physics);
+      }
+}
+
+}  // namespace
+}  // namespace nanson
