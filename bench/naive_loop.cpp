@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "engine/time_function.hpp"
 #include "kernels/materials/linear_elastic.hpp"
@@ -352,6 +353,7 @@ void material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vect
     case Law::linear_elastic: return material_of_formulation<Law::linear_elastic, Volumetric::quadratic, Isochoric::F>(n, nodes, H);
     case Law::neo_hookean: return material_of_law<Law::neo_hookean>(n, nodes, H);
     case Law::mooney_rivlin: return material_of_law<Law::mooney_rivlin>(n, nodes, H);
+    case Law::hencky_j2: throw std::invalid_argument("the plain loop has no plasticity");
   }
 }
 
