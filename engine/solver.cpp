@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/incompressible.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
 #include "engine/time_function.hpp"
@@ -16,6 +17,7 @@ struct RungeKuttaStage {
   double old, stage, mean;
 };
 constexpr RungeKuttaStage tvd_rk2[] = {{0, 1, 0.5}, {0.5, 0.5, 0.5}};
+constexpr RungeKuttaStage projected_rk2[] = {{0, 1, 0.5}, {0, 1, 0.5}};  // the projection averages itself
 constexpr RungeKuttaStage ssp_rk3[] = {{0, 1, 1.0 / 6}, {0.75, 0.25, 1.0 / 6}, {1.0 / 3, 2.0 / 3, 2.0 / 3}};
 
 /// Force on each corner of the loaded faces at time t, on the stage's geometry; returns their sum [N].
@@ -36,10 +38,11 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
   return sum;
 }
 
-/// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
-void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
+/// Returns why the run must not go on, or nothing. Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
+std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   State& u = s.state;
-  const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1, next = 1 - u.now;
+  const bool projected = s.scene->physics.formulation == Formulation::pFp;
+  const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1, next = 1 - u.now;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
   Rows rows{u.X.data(), u.U[0].data(), u.U[from].data(), u.H[0].data(), u.H[from].data(), u.W[u.now].data(), u.PH[u.now].data(), u.G.data(), u.Q.data(),
@@ -47,7 +50,7 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant;
+  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
 
   if (!s.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
@@ -65,10 +68,12 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
       }
       s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
-      s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
+      if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
     });
   });
+  if (projected) return project_stage(s, number);
   u.now = next;
+  return {};
 }
 
 /// Rate of each condition's time factor over the step: prescribed velocities are then exact at t + dt, in every Runge-Kutta stage.
@@ -123,13 +128,15 @@ void advance(Simulation& s) {
   prescribe(s, s.acceleration);
   s.coefficients.acceleration = s.acceleration.data();
   const bool rk2 = s.scene->time.integrator == Integrator::tvd_rk2;
-  const RungeKuttaStage* stages = rk2 ? tvd_rk2 : ssp_rk3;
+  const RungeKuttaStage* stages = s.scene->physics.formulation == Formulation::pFp ? projected_rk2 : rk2 ? tvd_rk2 : ssp_rk3;
   const int count = rk2 ? 2 : 3;
   for (int i = 0; i < count; ++i) {
-    stage(s, stages[i], i, count);
-    if (broken(s)) {
+    const std::string failure = stage(s, stages[i], i, count);
+    const bool stop = !failure.empty() && s.scene->projection.on_limit == OnLimit::stop;
+    if (!failure.empty() && !stop) s.warning = failure;
+    if (broken(s) || stop) {
       if (i + 1 < count) s.state.U[0] = s.state.U[1], s.state.H[0] = s.state.H[1];
-      s.breakdown = locate_breakdown(s, i + 1);
+      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure};
       break;
     }
   }
