@@ -133,11 +133,30 @@ double checkerboard(Simulation& s) {
   return all > 0 ? std::sqrt(sum(true) / all) : 0;
 }
 
+namespace {
+
+/// Power -sum p (S + theta-term) that the pressure's stabilisation and the drift control take [W]: p and S of the stage's start, the drift of the last projection.
+double pressure_stabilisation_power(Simulation& s, const Rows& rows) {
+  const Aligned<double>& taken = s.projection.taken[rows.U_stage == s.state.U[0].data() ? 0 : 1];
+  return -sum_over_parts(s, [&](int p) {
+    const Part& part = s.projection.parts[static_cast<std::size_t>(p)];
+    double sum = 0;
+    for (int n = part.node_begin; n < part.node_end; ++n) {
+      const std::size_t i = static_cast<std::size_t>(n);
+      sum += rows.W[row::W * n + 3] * (taken[i] + (s.projection.fixed[i] - s.projection.lag[i]));
+    }
+    return sum;
+  });
+}
+
+}  // namespace
+
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
   const auto edges = s.order.edges();
   const auto lists = s.order.lists();
   s.ledger.dissipated +=
       weighted_dt * sum_over_parts(s, [&](int p) { return s.functions.dissipation(s.order.parts[static_cast<std::size_t>(p)], edges, lists, rows, s.coefficients); });
+  if (s.scene->physics.formulation == Formulation::pFp) s.ledger.dissipated += weighted_dt * pressure_stabilisation_power(s, rows);
   double power = 0;
   for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)
     for (int n : s.boundary.slot_nodes[slot])

@@ -59,7 +59,7 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
   const double dt = sweep.k.dt, speed = length / dt, gamma = sweep.k.rho * speed * speed;
   for_parts(s, [&](int i, Scratch) { p.part_sums[i] = pseudo_step_part(p.parts[i], sweep.edges, sweep.rows, 1 / speed); });
   const double dtau = *std::min_element(p.part_sums.begin(), p.part_sums.begin() + static_cast<std::ptrdiff_t>(p.parts.size())), keep = 1 / (1 + dtau / dt);
-  std::fill(p.d.begin(), p.d.end(), 0.0), std::fill(p.Kd.begin(), p.Kd.end(), 0.0), std::fill(p.V.begin(), p.V.end(), 0.0);
+  std::fill(p.d.begin(), p.d.end(), 0.0), std::fill(p.Kd.begin(), p.Kd.end(), 0.0), std::fill(p.V.begin(), p.V.end(), 0.0), std::fill(p.removed.begin(), p.removed.end(), 0.0);
   PressureSolve out{0, norm};
   double mean = 0, sum = 0;
   while (out.norm > goal && out.iterations < most) {
@@ -71,7 +71,7 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
   }
   if (sweep.closed)
     for (double& d : p.d) d -= sum / sweep.total_volume;
-  sweep.force(0, dt), sweep.step(1, 0);
+  sweep.step(1, 0);
   return out;
 }
 

@@ -27,7 +27,8 @@ inline void pressure_force_part(const Part& part, const EdgeArrays& edges, const
         const Vec4 along = Vec4{c.d[m][0], c.d[m][1], c.d[m][2], 0.0};
         const Vec4 size = dot3(along, f);
         f = f - size * along;
-        rows.removed[3 * rows.held[n] + m] = size[0];
+        double& removed = rows.removed[3 * rows.held[n] + m];
+        removed = fma(keep, removed, step / k.dt * size[0]);
       }
     }
     double* V = rows.V + row::V * n;
