@@ -30,7 +30,7 @@ foreach(metric deformed paper)
       list(GET t 0 evolves_J)
       list(GET t 1 jump)
       list(GET t 2 fix)
-      if(NOT (jump STREQUAL tensor AND reconstruction STREQUAL limited))
+      if(NOT ("${jump}" STREQUAL "tensor" AND "${reconstruction}" STREQUAL "limited"))  # quoted: tensor is a variable too
         set(tag ${reconstruction}_${evolves_J}_${jump}_${metric}_${fix})
         set(traits "${evolves_J}, PressureJump::${jump}, UpwindMetric::${metric}, EntropyFix::${fix}")
         add_instance(edge_flux_${correction}_${tag} edge_flux_part.hpp

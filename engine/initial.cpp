@@ -29,15 +29,12 @@ PointState standing_wave(const Scene& scene, const Vec3& X, double t) {
   return out;
 }
 
-/// u = amplitude (1 - s^2)^4 n for |s| < 1, s = ((X - X0).n - c_p t)/length, X0 the centre of the mesh's bounding box.
-PointState plane_wave(const Scene& scene, const Mesh& mesh, const Vec3& X, double t) {
+/// u = amplitude (1 - s^2)^4 n for |s| < 1, s = ((X - X0).n - c_p t)/length, X0 the middle of the mesh's bounding box.
+PointState plane_wave(const Scene& scene, const Vec3& middle, const Vec3& X, double t) {
   const InitialSpec& w = scene.initial;
   const double cp = constants_of(scene.material).cp;
   double along = 0;
-  for (int k = 0; k < 3; ++k) {
-    const auto [least, most] = std::minmax_element(mesh.X.begin(), mesh.X.end(), [k](const Vec3& p, const Vec3& q) { return p[k] < q[k]; });
-    along += (X[k] - 0.5 * ((*least)[k] + (*most)[k])) * w.direction[k];
-  }
+  for (int k = 0; k < 3; ++k) along += (X[k] - middle[k]) * w.direction[k];
   const double s = (along - cp * t) / w.length;
   PointState out;
   if (std::abs(s) >= 1) return out;
@@ -66,11 +63,20 @@ bool has_exact_solution(const Scene& scene) {
   return scene.initial.field == InitialField::standing_wave || scene.initial.field == InitialField::plane_wave;
 }
 
-PointState exact_solution(const Scene& scene, const Mesh& mesh, const Vec3& X, double t) {
-  return scene.initial.field == InitialField::standing_wave ? standing_wave(scene, X, t) : plane_wave(scene, mesh, X, t);
+Vec3 middle_of_box(const Mesh& mesh) {
+  Vec3 middle;
+  for (int k = 0; k < 3; ++k) {
+    const auto [least, most] = std::minmax_element(mesh.X.begin(), mesh.X.end(), [k](const Vec3& p, const Vec3& q) { return p[k] < q[k]; });
+    middle[k] = 0.5 * ((*least)[k] + (*most)[k]);
+  }
+  return middle;
 }
 
-PointState initial_state(const Scene& scene, const Mesh& mesh, const Vec3& X, const Vec3& centre) {
+PointState exact_solution(const Scene& scene, const Vec3& middle, const Vec3& X, double t) {
+  return scene.initial.field == InitialField::standing_wave ? standing_wave(scene, X, t) : plane_wave(scene, middle, X, t);
+}
+
+PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, const Vec3& centre) {
   const InitialSpec& s = scene.initial;
   PointState out;
   switch (s.field) {
@@ -84,7 +90,7 @@ PointState initial_state(const Scene& scene, const Mesh& mesh, const Vec3& X, co
     case InitialField::twist: out.v = rotation({0, 0, s.twist_omega * std::sin(pi * X[2] / (2 * s.height))}, X); break;
     case InitialField::plate_mode: out.v = plate_mode(s, X); break;
     case InitialField::standing_wave:
-    case InitialField::plane_wave: return exact_solution(scene, mesh, X, 0);
+    case InitialField::plane_wave: return exact_solution(scene, middle, X, 0);
   }
   return out;
 }

@@ -22,7 +22,8 @@ Energies energies(Simulation& s);
 Momenta momenta(Simulation& s);
 Extrema extrema(const Simulation& s);
 
-/// |kinetic + strain + dissipated - external_work - initial| / initial (method, section 11); needs monitor.energy.
+/// |kinetic + strain + dissipated - external_work - initial| over the larger of the initial energy and the largest external work so far
+/// (method, section 11); needs monitor.energy.
 double energy_closure(Simulation& s);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
@@ -45,7 +46,7 @@ void book_step(Simulation& s);
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
 Breakdown locate_breakdown(Simulation& s, int stage);
 Breakdown collapse(Simulation& s, double allowed);
-/// A sentence when the total energy exceeds initial + external work by more than monitor.energy_tolerance.
+/// A sentence when the total energy has exceeded initial + external work by more than monitor.energy_tolerance for some steps.
 std::optional<std::string> energy_growth(Simulation& s);
 
 /// Tets around a mesh node, for messages.

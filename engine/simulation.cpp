@@ -46,9 +46,9 @@ Vec3 centre_of_mass(const Mesh& mesh, const std::vector<double>& volume) {
 }
 
 void set_initial_state(Simulation& s) {
-  const Vec3 centre = centre_of_mass(*s.mesh, s.volume);
+  const Vec3 centre = centre_of_mass(*s.mesh, s.volume), middle = middle_of_box(*s.mesh);
   for (int n = 0; n < s.order.nodes; ++n) {
-    const PointState p = initial_state(*s.scene, *s.mesh, s.mesh->X[static_cast<std::size_t>(n)], centre);
+    const PointState p = initial_state(*s.scene, middle, s.mesh->X[static_cast<std::size_t>(n)], centre);
     const std::size_t r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
     double* U = &s.state.U[0][row::U * r];
     Tensor<double> F;

@@ -38,15 +38,15 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
   return sum;
 }
 
-/// Returns why the run must not go on, or nothing. Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
+/// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
+/// The incompressible scheme projects before the stress. Returns why the run must not go on, or nothing.
 std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   State& u = s.state;
   const bool projected = s.scene->physics.formulation == Formulation::pFp;
-  const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1, next = 1 - u.now;
+  const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
-  Rows rows{u.X.data(), u.U[0].data(), u.U[from].data(), u.H[0].data(), u.H[from].data(), u.W[u.now].data(), u.PH[u.now].data(), u.G.data(), u.Q.data(),
-            u.GP.data(), u.L.data(), u.lambda.data(), u.loads.data(), u.U[to].data(), u.H[to].data(), u.W[next].data(), u.PH[next].data()};
+  const Rows rows = stage_rows(u, from, to);
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
@@ -72,7 +72,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
     });
   });
   if (projected) return project_stage(s, number);
-  u.now = next;
+  u.now = 1 - u.now;
   return {};
 }
 

@@ -20,6 +20,8 @@ struct Ledger {
   Vec3 initial_momentum{}, initial_angular_momentum{};  // [kg m/s], [kg m^2/s]
   Vec3 impulse{};                         // [N s] of loads, body force and supports
   double external_work = 0, dissipated = 0;   // [J] monitor.energy
+  double largest_work = 0;                // [J] largest |external_work| so far
+  long balanced_step = 0;                 // last history row at which energy had not grown
 };
 
 struct Breakdown {

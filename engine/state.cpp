@@ -78,6 +78,17 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
   return s;
 }
 
+Rows stage_rows(State& u, int from, int to) {
+  const int next = 1 - u.now;
+  Rows r{};
+  r.X = u.X.data(), r.lambda = u.lambda.data(), r.loads = u.loads.data();
+  r.U_old = u.U[0].data(), r.U_stage = u.U[from].data(), r.H_old = u.H[0].data(), r.H_stage = u.H[from].data();
+  r.W = u.W[u.now].data(), r.PH = u.PH[u.now].data();
+  r.G = u.G.data(), r.Q = u.Q.data(), r.GP = u.GP.data(), r.L = u.L.data();
+  r.U_new = u.U[to].data(), r.H_new = u.H[to].data(), r.W_new = u.W[next].data(), r.PH_new = u.PH[next].data();
+  return r;
+}
+
 double bytes_per_node(const State& s, const Order& o) {
   std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.step_length.size() + s.loads.size() + s.reactions.size() + o.size.size();
   for (int k = 0; k < 2; ++k) doubles += s.U[k].size() + s.H[k].size() + s.W[k].size() + s.PH[k].size();

@@ -27,6 +27,9 @@ struct State {
 /// Zero or undeformed everywhere; padding rows are undeformed nodes of unit volume with an infinite step length.
 State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const Order& order, const Boundary& boundary);
 
+/// The rows of a stage that takes the rates of U[from] and writes U[to], and the next W and PH.
+Rows stage_rows(State& state, int from, int to);
+
 /// Bytes a node of all arrays of state and order, and in words what the scene does not pay for.
 double bytes_per_node(const State& state, const Order& order);
 std::vector<std::string> fields_left_out(const Scene& scene);

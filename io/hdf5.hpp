@@ -34,7 +34,7 @@ inline std::string take_error() {
     auto& all = *static_cast<std::string*>(out);
     if (std::string_view(entry->func_name) == driver_errors) {
       all = entry->desc;
-      return 1;                                      // enough: what follows only says who called whom
+      return 1;  // enough: what follows only says who called whom
     }
     if (!all.empty()) all += "; ";
     all += std::string(entry->func_name) + ": " + entry->desc;
@@ -90,6 +90,8 @@ hid_t type() {
   }
 }
 
+inline bool has_link(hid_t at, const std::string& name) { return check(H5Lexists(at, name.c_str(), H5P_DEFAULT), name) > 0; }
+inline bool has_attribute(hid_t at, const std::string& name) { return check(H5Aexists(at, name.c_str()), name) > 0; }
 inline Handle open_group(hid_t at, const std::string& name) { return {H5Gopen2(at, name.c_str(), H5P_DEFAULT), name}; }
 inline Handle open_dataset(hid_t at, const std::string& name) { return {H5Dopen2(at, name.c_str(), H5P_DEFAULT), name}; }
 inline Handle create_group(hid_t at, const std::string& name, hid_t creation = H5P_DEFAULT) {
@@ -140,7 +142,7 @@ void write_rows(hid_t at, const std::string& name, hsize_t first, hsize_t rows, 
   check(H5Sselect_hyperslab(file_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), name);
   const Handle memory_space(H5Screate_simple(int(count.size()), count.data(), nullptr), name);
   check(H5Dwrite(data, type<T>(), memory_space, file_space, H5P_DEFAULT, values.data()), name);
-  data.close(name);                                  // chunks in HDF5's cache are written only here
+  data.close(name);  // chunks in HDF5's cache are written only here
 }
 
 /// A dataset `name` of shape `count` that holds no data of its own: it shows rows [first, first + count[0]) of `source` in the same file.
@@ -160,9 +162,9 @@ void write_view(hid_t at, const std::string& name, const std::string& source, hs
 template <class T>
 void set_attribute(hid_t at, const std::string& name, T value) {
   const Handle space(H5Screate(H5S_SCALAR), name);
-  const bool exists = check(H5Aexists(at, name.c_str()), name) > 0;
-  const Handle attribute(exists ? H5Aopen(at, name.c_str(), H5P_DEFAULT)
-                                : H5Acreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, H5P_DEFAULT), name);
+  const Handle attribute(
+      has_attribute(at, name) ? H5Aopen(at, name.c_str(), H5P_DEFAULT) : H5Acreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, H5P_DEFAULT),
+      name);
   check(H5Awrite(attribute, type<T>(), &value), name);
 }
 

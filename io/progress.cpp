@@ -1,3 +1,4 @@
+// When a line is due, and what stands in it.
 #include "io/progress.hpp"
 
 #include <fmt/format.h>

@@ -32,11 +32,11 @@ class Progress {
   bool quiet_;
   std::FILE* to_;
   bool terminal_;
-  std::string line_;                                 // what stands on the terminal's last line
+  std::string line_;  // what stands on the terminal's last line
   Clock::time_point shown_;
   double shown_t_;
-  int tenth_ = -1;                                   // tenths of the way at the last line
-  double rate_ = 0;                                  // simulated seconds a wall second, smoothed: a single slow step must not upset the estimate
+  int tenth_ = -1;   // tenths of the way at the last line
+  double rate_ = 0;  // simulated seconds a wall second, smoothed: a single slow step must not upset the estimate
 };
 
 /// 59s, 3m07s, 2h05m; -- when it is not a time or beyond 100 days.

@@ -7,13 +7,13 @@
 namespace nanson {
 
 struct Provenance {
-  std::string version;                               // of the program
-  std::string commit;                                // git, short; + when files were changed; "unknown" without git
-  std::string compiler;                              // name and version
+  std::string version;   // of the program
+  std::string commit;    // git, short; + when files were changed; "unknown" without git
+  std::string compiler;  // name and version
   std::string flags;
-  std::string cpu;                                   // what the compiler was told, and what "native" meant
+  std::string cpu;  // what the compiler was told, and what "native" meant
   std::string host;
-  std::string start;                                 // UTC, ISO 8601: when this was asked for
+  std::string start;  // UTC, ISO 8601: when this was asked for
 };
 
 Provenance provenance();

@@ -1,3 +1,4 @@
+// Write, close, rename; the first of the three that fails gives the reason.
 #include "io/replace_file.hpp"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// Creating, locking and clearing the folder, each refusal with its reason.
 #include "io/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -43,7 +44,8 @@ Descriptor lock(const fs::path& folder) {
   if (!file) throw FolderError(fmt::format("{}: the folder cannot be written to: {}", folder.string(), std::strerror(errno)));
   if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
     if (errno != EWOULDBLOCK) throw FolderError(fmt::format("{}: the folder cannot be locked: {}", folder.string(), std::strerror(errno)));
-    throw FolderError(fmt::format("{}: another run{} is writing to this folder; wait for it or name another one with --out", folder.string(), holder(file.get())));
+    throw FolderError(
+        fmt::format("{}: another run{} is writing to this folder; wait for it or name another one with --out", folder.string(), holder(file.get())));
   }
   const int error = ::ftruncate(file.get(), 0) != 0 ? errno : write_all(file.get(), std::to_string(::getpid()));
   if (error != 0) throw FolderError(fmt::format("{}: the folder cannot be written to: {}", folder.string(), std::strerror(error)));
@@ -62,7 +64,8 @@ std::vector<std::string> ResultsFolder::begin() {
   for (const char* name : result_files) {
     const fs::path file = path_ / name;
     std::error_code error;
-    if (fs::is_directory(fs::symlink_status(file, error))) throw FolderError(fmt::format("{}: is a folder, where results are to be written", file.string()));
+    if (fs::is_directory(fs::symlink_status(file, error)))
+      throw FolderError(fmt::format("{}: is a folder, where results are to be written", file.string()));
     if (fs::remove(file, error)) removed.emplace_back(name);
     if (error) throw FolderError(fmt::format("{}: an earlier run's file could not be removed: {}", file.string(), error.message()));
   }

@@ -1,3 +1,4 @@
+// The handler and its flag.
 #include "io/signals.hpp"
 
 #include <array>
@@ -8,7 +9,7 @@ namespace {
 
 constexpr std::array stopping{SIGINT, SIGTERM, SIGXCPU};
 volatile std::sig_atomic_t received = 0;
-volatile std::sig_atomic_t caught[stopping.size()] = {};   // those that were not ignored when the run began (nohup, background jobs)
+volatile std::sig_atomic_t caught[stopping.size()] = {};  // those that were not ignored when the run began (nohup, background jobs)
 
 extern "C" void note_signal(int signal) {
   received = signal;
@@ -21,7 +22,8 @@ extern "C" void note_signal(int signal) {
 void catch_stop_signals() {
   received = 0;
   for (std::size_t i = 0; i < stopping.size(); ++i) {
-    struct sigaction before {}, now {};
+    struct sigaction before {};
+    struct sigaction now {};
     now.sa_handler = note_signal;
     now.sa_flags = SA_RESTART;
     for (const int other : stopping) sigaddset(&now.sa_mask, other);

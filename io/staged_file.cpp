@@ -1,3 +1,4 @@
+// The driver: an overlay of blocks that are held back, the order in which they are written, and the callbacks that HDF5 asks for.
 #include "io/staged_file.hpp"
 
 #include <sys/file.h>
@@ -25,17 +26,17 @@ using Bytes = std::vector<char>;
 
 struct StagedFile : H5FD_t {
   Descriptor file;
-  haddr_t eoa = 0;                                   // end of the addresses that HDF5 has allocated
-  haddr_t size = 0;                                  // of the file now
-  haddr_t old_size = 0;                              // of the file when it was opened or last committed: below it nothing changes before a commit
-  std::map<haddr_t, Bytes> staged;                   // changes below old_size, by address
-  int error = 0;                                     // errno of the first failure; from then on nothing is written any more, and no flush succeeds
+  haddr_t eoa = 0;                  // end of the addresses that HDF5 has allocated
+  haddr_t size = 0;                 // of the file now
+  haddr_t old_size = 0;             // of the file when it was opened or last committed: below it nothing changes before a commit
+  std::map<haddr_t, Bytes> staged;  // what is held back, by address
+  int error = 0;                    // errno of the first failure: from then on everything is staged, for HDF5 to read, and no flush succeeds
 };
 
 StagedFile& staged_file(H5FD_t* file) { return *static_cast<StagedFile*>(file); }
 const StagedFile& staged_file(const H5FD_t* file) { return *static_cast<const StagedFile*>(file); }
 
-/// Puts the reason on HDF5's error stack (an unnamed function stands for this driver) and returns a failure.
+/// Puts the reason on HDF5's error stack, under a name that `take_error` knows, and returns a failure.
 herr_t report(int error) {
   H5Epush2(H5E_DEFAULT, __FILE__, driver_errors, __LINE__, H5E_ERR_CLS, H5E_FILE, H5E_WRITEERROR, "%s", std::strerror(error));
   return -1;
@@ -76,7 +77,7 @@ void stage(std::map<haddr_t, Bytes>& staged, haddr_t begin, const char* data, st
   });
   std::erase_if(staged, [&](const auto& entry) { return entry.first >= begin && entry.first + entry.second.size() <= end; });
   auto& block = staged[begin];
-  if (block.size() < size) block.assign(data, data + size);   // otherwise a longer block starts here, and has the bytes already
+  if (block.size() < size) block.assign(data, data + size);  // otherwise a longer block starts here, and has the bytes already
 }
 
 /// The place of a block in the order of a commit, lower first; HDF5's blocks begin with a signature, and a tree node has its level in byte 5.
@@ -88,7 +89,11 @@ int rank(haddr_t at, const Bytes& block) {
   return 1;
 }
 
+/// Closing a second descriptor of the file makes a network file system say now whether it took the data; a local one does nothing.
+int delivery_error(int fd) { return ::close(::dup(fd)) == 0 ? 0 : errno; }
+
 herr_t commit(StagedFile& f) {
+  if (f.error == 0) f.error = delivery_error(f.file.get());
   if (f.error != 0) return report(f.error);
   if (f.eoa > f.size) {
     if (::ftruncate(f.file.get(), off_t(f.eoa)) != 0) return fail(f, errno);
@@ -97,14 +102,14 @@ herr_t commit(StagedFile& f) {
   std::vector<std::tuple<int, haddr_t, const Bytes*>> order;
   for (const auto& [at, block] : f.staged) order.emplace_back(rank(at, block), at, &block);
   std::sort(order.begin(), order.end());
+  f.old_size = f.size;  // from here on the file is not cut back to what it was
   for (const auto& [unused, at, block] : order)
     if (const int error = pwrite_all(f.file.get(), at, block->data(), block->size())) return fail(f, error);
   if (f.eoa < f.size) {
     if (::ftruncate(f.file.get(), off_t(f.eoa)) != 0) return fail(f, errno);
-    f.size = f.eoa;
+    f.old_size = f.size = f.eoa;
   }
   f.staged.clear();
-  f.old_size = f.size;
   return 0;
 }
 
@@ -124,24 +129,27 @@ H5FD_t* open(const char* name, unsigned flags, hid_t, haddr_t) {
   return f.release();
 }
 
+/// Never fails, as HDF5 keeps what it could not close and stumbles over it at the program's end: what is to be known for sure has to be flushed first.
 herr_t close(H5FD_t* file) {
   const std::unique_ptr<StagedFile> f(&staged_file(file));
-  if (f->error != 0 && ::ftruncate(f->file.get(), off_t(f->old_size)) != 0) return report(errno);   // gives the space of the failed frame back
-  const int error = f->file.close();
-  return error == 0 ? 0 : report(error);
+  const bool cut = f->error != 0 && ::ftruncate(f->file.get(), off_t(f->old_size)) == 0;  // gives the space of a failed frame back
+  static_cast<void>(cut);  // where that is impossible, bytes stay behind the end that the superblock tells
+  return 0;
 }
 
+/// Never fails either, for the same reason: a data set's last chunks are written when it is closed.
 herr_t write(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, const void* data) {
   auto& f = staged_file(file);
   const char* bytes = static_cast<const char*>(data);
-  if (f.error != 0) return 0;                        // HDF5 can tidy up; the flush says that it failed
-  if (at < f.old_size) {
-    stage(f.staged, at, bytes, size);
-    return 0;
-  }
-  if (const int error = pwrite_all(f.file.get(), at, bytes, size)) return fail(f, error);
-  f.size = std::max(f.size, at + size);
+  if (f.error == 0 && at >= f.old_size) f.error = pwrite_all(f.file.get(), at, bytes, size);
+  if (f.error == 0 && at >= f.old_size) f.size = std::max(f.size, at + size);
+  else stage(f.staged, at, bytes, size);
   return 0;
+}
+
+herr_t flush(H5FD_t* file, hid_t, hbool_t closing) {
+  const herr_t done = commit(staged_file(file));
+  return closing ? 0 : done;
 }
 
 herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void* data) {
@@ -154,7 +162,7 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void*
     if (got == 0) break;
     if (got > 0) done += std::size_t(got);
   }
-  std::fill(bytes + done, bytes + size, 0);          // beyond the end of the file HDF5 expects zeros
+  std::fill(bytes + done, bytes + size, 0);  // beyond the end of the file HDF5 expects zeros
   overlaps(f.staged, at, at + size, [&](haddr_t begin, const Bytes& block, haddr_t first, haddr_t last) {
     std::copy(block.begin() + std::ptrdiff_t(first - begin), block.begin() + std::ptrdiff_t(last - begin), bytes + (first - at));
   });
@@ -177,7 +185,7 @@ H5FD_class_t driver_class() {
   H5FD_class_t c{};
 #ifdef H5FD_CLASS_VERSION
   c.version = H5FD_CLASS_VERSION;
-  c.value = H5FD_class_value_t(512);                 // the first number that HDF5 leaves to programs for themselves
+  c.value = H5FD_class_value_t(512);  // the first number that HDF5 leaves to programs for themselves
 #endif
   c.name = "nanson_staged";
   c.maxaddr = (haddr_t{1} << 63) - 1;
@@ -193,11 +201,11 @@ H5FD_class_t driver_class() {
   c.get_eof = [](const H5FD_t* file, H5FD_mem_t) { return staged_file(file).size; };
   c.read = read;
   c.write = write;
-  c.flush = [](H5FD_t* file, hid_t, hbool_t) { return commit(staged_file(file)); };
-  c.truncate = [](H5FD_t*, hid_t, hbool_t) { return herr_t{0}; };   // part of the commit
+  c.flush = flush;
+  c.truncate = [](H5FD_t*, hid_t, hbool_t) { return herr_t{0}; };  // part of the commit
   c.lock = lock;
   c.unlock = unlock;
-  std::fill(std::begin(c.fl_map), std::end(c.fl_map), H5FD_MEM_SUPER);   // one free list for metadata and one for data, like HDF5's own driver
+  std::fill(std::begin(c.fl_map), std::end(c.fl_map), H5FD_MEM_SUPER);  // one free list for metadata and one for data, like HDF5's own driver
   c.fl_map[H5FD_MEM_DRAW] = c.fl_map[H5FD_MEM_GHEAP] = H5FD_MEM_DRAW;
   return c;
 }

@@ -4,7 +4,7 @@
 // that refer to blocks never written: 54 of 598 such moments made earlier frames unreadable. Here blocks beyond the old end of the file are written at
 // once, changes below it are held back until the flush and then made in an order of which every beginning is a whole file as far as older data go:
 // the superblock (with the new end), plain blocks and heaps, tree nodes from the root down, symbol tables.
-// If anything fails before that point, the file is as it was.
+// If anything fails before that point, the file is as it was. A failure is reported by H5Fflush and by nothing else, so a flush must precede the closing.
 #pragma once
 #include <hdf5.h>
 

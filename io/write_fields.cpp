@@ -1,10 +1,13 @@
+// The layout of run.vtkhdf and how a frame is added to it.
 #include "io/write_fields.hpp"
 
 #include <fmt/format.h>
 
 #include <array>
+#include <chrono>
 #include <cstring>
 #include <stdexcept>
+#include <thread>
 
 #include "io/hdf5.hpp"
 #include "io/posix_file.hpp"
@@ -30,12 +33,27 @@ Handle file_access(bool lock) {
   return access;
 }
 
-/// Locked, so that a reader who comes now is told so instead of seeing half a frame; but a reader who already holds the file must not stop the run.
-Handle open_for_append(const std::filesystem::path& path) {
-  const hid_t locked = H5Fopen(path.c_str(), H5F_ACC_RDWR, file_access(true));
-  if (locked >= 0) return {locked, "opening"};
-  H5Eclear2(H5E_DEFAULT);
+/// Locked, so that a reader who comes now is told so instead of seeing half a frame. A reader who holds the file gets `patience` milliseconds to finish, as
+/// it would mix old and new tables; but one who stays (a window left open) must not stop the run, so patience halves every time it was in vain.
+Handle open_for_append(const std::filesystem::path& path, int& patience) {
+  const Handle access = file_access(true);
+  for (int waited = 0; waited <= patience; ++waited) {
+    const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, access);
+    if (file >= 0) {
+      patience = most_patience;
+      return {file, "opening"};
+    }
+    H5Eclear2(H5E_DEFAULT);
+    if (waited < patience) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  patience /= 2;
   return {H5Fopen(path.c_str(), H5F_ACC_RDWR, file_access(false)), "opening"};
+}
+
+/// Closing alone would hide that a write failed.
+void flush_and_close(Handle& file) {
+  hdf5::check(H5Fflush(file, H5F_SCOPE_GLOBAL), "flushing");
+  file.close("closing");
 }
 
 /// By hand first: O_EXCL keeps an earlier run's results, and the system's reason is plainer than HDF5's.
@@ -81,16 +99,16 @@ void write_mesh(hid_t vtkhdf, const Mesh& mesh) {
   for (std::size_t i = 0; i <= m; ++i) offsets[i] = int64_t(4 * i);
   hdf5::write<int64_t>(vtkhdf, "Connectivity", connectivity, {4 * m});
   hdf5::write<int64_t>(vtkhdf, "Offsets", offsets, {m + 1});
-  hdf5::write<std::uint8_t>(vtkhdf, "Types", std::vector<std::uint8_t>(m, 10), {m});   // 10: VTK_TETRA
+  hdf5::write<std::uint8_t>(vtkhdf, "Types", std::vector<std::uint8_t>(m, 10), {m});  // 10: VTK_TETRA
 
   const Handle cell_data = hdf5::create_group(vtkhdf, "CellData");
   hdf5::write<std::int32_t>(cell_data, "region", mesh.tet_region, {m});
-  hdf5::set_strings(hdf5::open_dataset(cell_data, "region"), "names", mesh.region_names);
+  if (!mesh.region_names.empty()) hdf5::set_strings(hdf5::open_dataset(cell_data, "region"), "names", mesh.region_names);
 }
 
 /// The datasets of VTKHDF that every step adds one row to, apart from the offsets of the fields: all zero but for the time, as the mesh does not change.
 constexpr std::array step_rows{"PartOffsets", "PointOffsets", "CellDataOffsets/region"};
-constexpr std::array step_columns{"CellOffsets", "ConnectivityIdOffsets"};                // of shape [steps, 1]
+constexpr std::array step_columns{"CellOffsets", "ConnectivityIdOffsets"};  // of shape [steps, 1]
 constexpr hsize_t steps_in_chunk = 256;
 
 void create_series(hid_t vtkhdf, const std::vector<FieldName>& fields, std::size_t nodes, int compress) {
@@ -122,7 +140,8 @@ void append_step(hid_t file, const std::vector<FieldName>& fields, std::size_t n
 
 }  // namespace
 
-FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes, int compress)
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes,
+                         int compress)
     : path_(folder / "run.vtkhdf"), fields_(std::move(fields)), nodes_(mesh.X.size()), tets_(mesh.tets.size()), compress_(compress) {
   hdf5::be_quiet();
   try {
@@ -134,7 +153,7 @@ FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, 
       create_series(vtkhdf, fields_, nodes_, compress_);
       create_frames(file);
     }
-    file.close("closing");
+    flush_and_close(file);
   } catch (const hdf5::Error& error) {
     throw std::runtime_error(fmt::format("{}: could not be created: {}", path_.string(), error.what()));
   }
@@ -145,8 +164,8 @@ void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get
   try {
     append(t, step, breakdown, get);
   } catch (const hdf5::Error& error) {
-    throw std::runtime_error(fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable", path_.string(), frames_, t,
-                                         error.what()));
+    throw std::runtime_error(fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable", path_.string(),
+                                         frames_, t, error.what()));
   }
   xdmf_frames_ += xdmf_frame({path_.filename().string(), nodes_, tets_}, fields_, frames_, t, breakdown);
   ++frames_;
@@ -155,28 +174,29 @@ void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get
 }
 
 /// All data first, flushed; then the count that makes the frame visible. Every handle is closed before the file.
-void FieldWriter::append(double t, long step, bool breakdown, const GetField& get) const {
-  Handle file = open_for_append(path_);
+void FieldWriter::append(double t, long step, bool breakdown, const GetField& get) {
+  Handle file = open_for_append(path_, patience_);
   const std::string name = fmt::format("/frames/{:06}", frames_);
-  if (hdf5::check(H5Lexists(file, name.c_str(), H5P_DEFAULT), name) > 0) hdf5::check(H5Ldelete(file, name.c_str(), H5P_DEFAULT), name);
   {
-    const Handle group = hdf5::create_group(file, name);
+    const bool again = hdf5::has_link(file, name);  // left by a failed attempt; kept, since removing a name can make HDF5 move the heap of names
+    const Handle group = again ? hdf5::open_group(file, name) : hdf5::create_group(file, name);
     hdf5::set_attribute<double>(group, "time", t);
     hdf5::set_attribute<int64_t>(group, "step", step);
-    if (breakdown) hdf5::set_attribute<std::int32_t>(group, "breakdown", 1);
+    if (breakdown || hdf5::has_attribute(group, "breakdown")) hdf5::set_attribute<std::int32_t>(group, "breakdown", breakdown);
     for (const auto& field : fields_) {
       const auto values = get(field);
       if (values.size() != nodes_ * std::size_t(field.components))
         throw std::logic_error(fmt::format("field {} came with {} values instead of {} x {}", field.name, values.size(), nodes_, field.components));
       const std::string source = "/VTKHDF/PointData/" + std::string(field.name);
       hdf5::write_rows<float>(file, source, frames_ * nodes_, nodes_, values);
-      hdf5::write_view<float>(group, std::string(field.name), source, frames_ * nodes_, shape(field, nodes_));
+      if (!hdf5::has_link(group, std::string(field.name)))
+        hdf5::write_view<float>(group, std::string(field.name), source, frames_ * nodes_, shape(field, nodes_));
     }
   }
   append_step(file, fields_, nodes_, frames_, t);
   hdf5::check(H5Fflush(file, H5F_SCOPE_GLOBAL), "flushing");
   hdf5::set_attribute<int64_t>(hdf5::open_group(file, "/VTKHDF/Steps"), "NSteps", int64_t(frames_ + 1));
-  file.close("closing");
+  flush_and_close(file);
 }
 
 }  // namespace nanson

@@ -18,6 +18,8 @@
 
 namespace nanson {
 
+inline constexpr int most_patience = 200;  // [ms] a frame waits for a reader to let go of the file
+
 class FieldWriter {
  public:
   using Attributes = std::vector<std::pair<std::string, std::string>>;
@@ -34,14 +36,15 @@ class FieldWriter {
   std::size_t frames() const { return frames_; }
 
  private:
-  void append(double t, long step, bool breakdown, const GetField& get) const;
+  void append(double t, long step, bool breakdown, const GetField& get);
 
   std::filesystem::path path_;
   std::vector<FieldName> fields_;
   std::size_t nodes_, tets_;
   int compress_;
+  int patience_ = most_patience;  // [ms] to wait for another program that holds the file
   std::size_t frames_ = 0;
-  std::string xdmf_frames_;                          // the text of the frames so far, so that a frame costs its own text only
+  std::string xdmf_frames_;  // the text of the frames so far, so that a frame costs its own text only
 };
 
 }  // namespace nanson

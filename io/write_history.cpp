@@ -1,3 +1,4 @@
+// Rows as text, and files that take no more of them.
 #include "io/write_history.hpp"
 
 #include <fmt/format.h>
@@ -36,7 +37,7 @@ void HistoryWriter::row(std::span<const double> values) {
   line_.clear();
   for (const double value : values) {
     if (!line_.empty()) line_ += ',';
-    if (std::isnan(value)) line_ += "nan";           // fmt would write -nan for half of them
+    if (std::isnan(value)) line_ += "nan";  // fmt would write -nan for half of them
     else fmt::format_to(std::back_inserter(line_), "{}", value);
   }
   append(line_ += '\n');
@@ -52,7 +53,8 @@ void HistoryWriter::append(const std::string& line) {
     return;
   }
   const bool cut = ::ftruncate(file_.get(), off_t(size_)) == 0 && ::lseek(file_.get(), off_t(size_), SEEK_SET) >= 0;
-  throw std::runtime_error(fmt::format("{}: a row could not be written: {}{}", path_.string(), std::strerror(error), cut ? "" : "; the last row is cut"));
+  throw std::runtime_error(
+      fmt::format("{}: a row could not be written: {}{}", path_.string(), std::strerror(error), cut ? "" : "; the last row is cut"));
 }
 
 }  // namespace nanson

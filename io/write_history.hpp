@@ -25,7 +25,7 @@ class HistoryWriter {
   std::filesystem::path path_;
   std::size_t columns_;
   Descriptor file_;
-  std::size_t size_ = 0;                             // [bytes] written so far, all of them whole rows
+  std::size_t size_ = 0;  // [bytes] written so far, all of them whole rows
   std::string line_;
 };
 

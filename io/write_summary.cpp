@@ -1,3 +1,4 @@
+// The summary as a table of toml++, which knows how to print JSON, all but null.
 #include "io/write_summary.hpp"
 
 #include <toml++/toml.h>
@@ -44,8 +45,9 @@ toml::array list(const std::vector<double>& values) {
 }
 
 toml::table energy_table(const EnergySummary& e) {
-  return toml::table{{"initial", number(e.initial)}, {"kinetic", number(e.kinetic)}, {"strain", number(e.strain)}, {"external_work", number(e.external_work)},
-                     {"dissipated", number(e.dissipated)}, {"closure", number(e.closure)}, {"lost_at_start", number(e.lost_at_start)}};
+  return toml::table{{"initial", number(e.initial)}, {"kinetic", number(e.kinetic)}, {"strain", number(e.strain)},
+                     {"external_work", number(e.external_work)}, {"dissipated", number(e.dissipated)}, {"closure", number(e.closure)},
+                     {"lost_at_start", number(e.lost_at_start)}};
 }
 
 toml::table probes_table(const std::map<std::string, std::map<std::string, std::vector<double>>>& probes) {
@@ -110,6 +112,8 @@ std::string summary_json(const Summary& summary, const Provenance& from) {
   return nulls(text.str());
 }
 
-void write_summary(const std::filesystem::path& path, const Summary& summary, const Provenance& from) { replace_file(path, summary_json(summary, from)); }
+void write_summary(const std::filesystem::path& path, const Summary& summary, const Provenance& from) {
+  replace_file(path, summary_json(summary, from));
+}
 
 }  // namespace nanson

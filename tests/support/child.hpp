@@ -16,8 +16,7 @@ pid_t start_child(Body body) {
     int result = 99;
     try {
       result = body();
-    } catch (...) {
-    }
+    } catch (...) {}
     ::_exit(result);
   }
   return pid;

@@ -35,7 +35,7 @@ inline Mesh beam(int nx, int ny, int nz) {
             ++at[std::size_t(paths[p][s])];
             tet[s + 1] = node(at[0], at[1], at[2]);
           }
-          if (p >= 3) std::swap(tet[2], tet[3]);     // odd permutations are left-handed
+          if (p >= 3) std::swap(tet[2], tet[3]);  // odd permutations are left-handed
           mesh.tets.push_back(tet);
           mesh.tet_region.push_back(2 * k < nz ? 0 : 1);
         }

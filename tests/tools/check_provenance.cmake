@@ -18,7 +18,8 @@ function(run source expected)
 endfunction()
 
 function(git)
-  execute_process(COMMAND git -C ${WORK}/repository -c user.name=test -c user.email=test@example.org -c init.defaultBranch=main ${ARGN} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+  execute_process(COMMAND git -C ${WORK}/repository -c user.name=test -c user.email=test@example.org -c init.defaultBranch=main
+                  ${ARGN} OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
 endfunction()
 
 file(REMOVE_RECURSE ${WORK})

@@ -9,13 +9,15 @@ find_program(NANSON_PYTHON NAMES python3 PATHS /usr/bin NO_DEFAULT_PATH)
 if(NANSON_PYTHON)
   execute_process(COMMAND ${NANSON_PYTHON} -c "import h5py, numpy" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
   if(missing EQUAL 0)
-    add_test(NAME Results.ReadWithH5py COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/read_with_h5py.py $<TARGET_FILE:write_sample>)
+    add_test(NAME Results.ReadWithH5py
+             COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/read_with_h5py.py $<TARGET_FILE:write_sample>)
   endif()
 endif()
 
 find_program(NANSON_PVPYTHON pvpython)
 if(NANSON_PVPYTHON)
-  add_test(NAME Results.ReadWithParaView COMMAND ${NANSON_PVPYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/read_with_paraview.py $<TARGET_FILE:write_sample>)
+  add_test(NAME Results.ReadWithParaView
+           COMMAND ${NANSON_PVPYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/read_with_paraview.py $<TARGET_FILE:write_sample>)
 endif()
 
 add_test(NAME Provenance.ScriptWithoutGitAndWithoutChange

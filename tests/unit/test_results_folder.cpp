@@ -39,12 +39,14 @@ TEST(ResultsFolder, IsNamedAfterTheSceneUnlessTheUserNamesOne) {
   EXPECT_EQ(ResultsFolder("beam", folder / "a/b/c").path(), folder / "a/b/c");
   EXPECT_TRUE(fs::is_directory(folder / "a/b/c"));
   for (const char* name : {"", ".", "..", "../beam", "a/b"})
-    EXPECT_EQ(refusal([&] { ResultsFolder(name, {}); }), "the scene's name \"" + std::string(name) + "\" cannot be the name of a folder; name one with --out");
+    EXPECT_EQ(refusal([&] { ResultsFolder(name, {}); }),
+              "the scene's name \"" + std::string(name) + "\" cannot be the name of a folder; name one with --out");
 }
 
 TEST(ResultsFolder, OnlyBeginRemovesAndOnlyWhatARunWrites) {
   const test::TemporaryFolder folder;
-  for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json", "notes.txt", "run.vtkhdf.old"}) test::write_text(folder / name, "old");
+  for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json", "notes.txt", "run.vtkhdf.old"})
+    test::write_text(folder / name, "old");
   ResultsFolder results("beam", folder.path());
   EXPECT_EQ(test::read_text(folder / "run.vtkhdf"), "old");
   EXPECT_EQ(results.begin(), (std::vector<std::string>{"summary.json", "history.csv", "run.xdmf", "run.vtkhdf"}));
@@ -55,8 +57,8 @@ TEST(ResultsFolder, OnlyBeginRemovesAndOnlyWhatARunWrites) {
 
 TEST(ResultsFolder, ASecondRunIsRefusedWhileTheFirstOneLives) {
   const test::TemporaryFolder folder;
-  const std::string expected = folder.path().string() + ": another run (process " + std::to_string(::getpid()) +
-                               ") is writing to this folder; wait for it or name another one with --out";
+  const std::string expected = folder.path().string() + ": another run (process " + std::to_string(::getpid())
+                               + ") is writing to this folder; wait for it or name another one with --out";
   {
     const ResultsFolder first("beam", folder.path());
     EXPECT_EQ(test::run_child([&] { return refusal([&] { ResultsFolder("beam", folder.path()); }) == expected ? 0 : 1; }), 0);
@@ -65,7 +67,8 @@ TEST(ResultsFolder, ASecondRunIsRefusedWhileTheFirstOneLives) {
   EXPECT_EQ(test::run_child([&] {
               ResultsFolder("beam", folder.path());
               return 0;
-            }), 0);
+            }),
+            0);
 }
 
 TEST(ResultsFolder, AKilledRunLeavesNoLock) {
@@ -73,7 +76,8 @@ TEST(ResultsFolder, AKilledRunLeavesNoLock) {
   EXPECT_EQ(test::run_child([&] {
               const ResultsFolder killed("beam", folder.path());
               return ::kill(::getpid(), SIGKILL);
-            }), 128 + SIGKILL);
+            }),
+            128 + SIGKILL);
   EXPECT_NO_THROW(ResultsFolder("beam", folder.path()));
 }
 
@@ -98,8 +102,10 @@ TEST(ResultsFolder, AFolderThatCannotBeWrittenToIsReported) {
   const test::TemporaryFolder folder;
   fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
   const int ended = test::run_child([&] {
-    if (::getuid() == 0 && ::setuid(65534) != 0) return 1;   // the administrator may write anywhere
-    return refusal([&] { ResultsFolder("beam", folder.path()); }) == folder.path().string() + ": the folder cannot be written to: Permission denied" ? 0 : 2;
+    if (::getuid() == 0 && ::setuid(65534) != 0) return 1;  // the administrator may write anywhere
+    return refusal([&] { ResultsFolder("beam", folder.path()); }) == folder.path().string() + ": the folder cannot be written to: Permission denied"
+               ? 0
+               : 2;
   });
   fs::permissions(folder.path(), fs::perms::owner_all);
   EXPECT_EQ(ended, 0);

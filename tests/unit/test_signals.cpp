@@ -22,7 +22,9 @@ TEST(Signals, TheFirstIsNotedAndTheSecondEndsTheProgram) {
                   if (stop_signal() != first) return 2;
                   ::raise(second);
                   return 3;
-                }), 128 + second) << first;
+                }),
+                128 + second)
+          << first;
 }
 
 TEST(Signals, OneThatWasIgnoredStaysIgnored) {
@@ -34,7 +36,8 @@ TEST(Signals, OneThatWasIgnoredStaysIgnored) {
               ::raise(SIGTERM);
               ::raise(SIGINT);
               return stop_signal() == SIGTERM ? 0 : 2;
-            }), 0);
+            }),
+            0);
 }
 
 TEST(Signals, AFileSizeLimitDoesNotEndTheProgram) {
@@ -42,7 +45,8 @@ TEST(Signals, AFileSizeLimitDoesNotEndTheProgram) {
               catch_stop_signals();
               ::raise(SIGXFSZ);
               return 0;
-            }), 0);
+            }),
+            0);
 }
 
 }  // namespace

@@ -32,7 +32,8 @@ TEST(WriteSummary, MissingAndNonFiniteNumbersAreNull) {
   summary.errors["p1_L2"] = std::numeric_limits<double>::infinity();
   summary.probes["tip"]["v"] = {1.0, std::numeric_limits<double>::quiet_NaN()};
   const std::string json = summary_json(summary, from);
-  for (const char* text : {"\"external_work\" : null", "\"closure\" : 0.25", "\"min_detF\" : null", "\"max_detF\" : null", "\"p1_L2\" : null", "null\n"})
+  for (const char* text : {"\"external_work\" : null", "\"closure\" : 0.25", "\"min_detF\" : null", "\"max_detF\" : null",
+                           "\"p1_L2\" : null", "null\n"})
     EXPECT_TRUE(contains(json, text)) << text << json;
   EXPECT_FALSE(contains(json, "NaN"));
   EXPECT_FALSE(contains(json, "Infinity"));
@@ -44,7 +45,8 @@ TEST(WriteSummary, TextIsEscapedAndNeverTakenForNull) {
   summary.scene = "a\"";
   summary.material = "\n\x01";
   const std::string json = summary_json(summary, from);
-  for (const char* text : {R"("reason" : "NaN in \"NaN\": NaN\\")", R"("scene" : "a\"")", R"("material" : "\n\u0001")"}) EXPECT_TRUE(contains(json, text)) << text;
+  for (const char* text : {R"("reason" : "NaN in \"NaN\": NaN\\")", R"("scene" : "a\"")", R"("material" : "\n\u0001")"})
+    EXPECT_TRUE(contains(json, text)) << text;
 }
 
 TEST(WriteSummary, NumbersKeepAllDigitsAndCountsAreWhole) {
@@ -53,7 +55,8 @@ TEST(WriteSummary, NumbersKeepAllDigitsAndCountsAreWhole) {
   summary.wall_s = 0.1 + 0.2;
   summary.sweeps = {{"edge_flux", 1.5}, {"stress", 1.0}, {"edge_flux", 0.25}};
   const std::string json = summary_json(summary, from);
-  for (const char* text : {"\"nodes\" : 117649,", "\"wall_s\" : 0.30000000000000004", "\"edge_flux\" : 1.75"}) EXPECT_TRUE(contains(json, text)) << text;
+  for (const char* text : {"\"nodes\" : 117649,", "\"wall_s\" : 0.30000000000000004", "\"edge_flux\" : 1.75"})
+    EXPECT_TRUE(contains(json, text)) << text;
 }
 
 TEST(WriteSummary, TheFileIsReplacedAsAWhole) {

@@ -1,0 +1,76 @@
+// A step allocates nothing: every operator new of this program counts while it is asked to.
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <cstdlib>
+#include <new>
+
+#include "scenes.hpp"
+
+namespace {
+
+std::atomic<bool> counting{false};
+std::atomic<long> allocations{0};
+
+void* counted(std::size_t size, std::size_t alignment) {
+  if (counting) ++allocations;
+  void* p = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));
+  if (!p) throw std::bad_alloc();
+  return p;
+}
+
+}  // namespace
+
+void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+void operator delete(void* p) noexcept { std::free(p); }
+void operator delete[](void* p) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t) noexcept { std::free(p); }
+void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::align_val_t) noexcept { std::free(p); }
+void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+void operator delete[](void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+
+namespace nanson::method {
+namespace {
+
+long allocations_of_three_steps(Simulation& s) {
+  march(s, 2);
+  allocations = 0, counting = true;
+  march(s, 3);
+  counting = false;
+  return allocations;
+}
+
+TEST(Allocation, TheCounterCounts) {
+  allocations = 0, counting = true;
+  { std::vector<double> plain(10); Aligned<double> aligned(10); }
+  counting = false;
+  EXPECT_EQ(allocations, 2);
+}
+
+TEST(Allocation, AStepAllocatesNothing) {
+  for (bool energy : {false, true})
+    for (int threads : {1, 2})
+      for (const PhysicsSpec& physics : every_physics())
+        for (auto integrator : integrators) {
+          Scene scene = loaded_bar(3);
+          scene.physics = physics, scene.time.integrator = integrator, scene.monitor.energy = energy;
+          const Problem problem(scene);
+          Simulation s = problem.start(threads);
+          EXPECT_EQ(allocations_of_three_steps(s), 0) << name(physics) << ' ' << word(integrator) << (energy ? " with monitor.energy" : "");
+        }
+}
+
+TEST(Allocation, AStepOfSeveralPartsOnTwoThreadsAllocatesNothing) {
+  const Problem problem(loaded_bar(9));
+  Simulation s = problem.start(2);
+  ASSERT_GE(s.order.parts.size(), 2u);
+  EXPECT_EQ(allocations_of_three_steps(s), 0);
+}
+
+}  // namespace
+}  // namespace nanson::method

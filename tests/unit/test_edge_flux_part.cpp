@@ -1,0 +1,219 @@
+// The edge loop on one edge between two parts, which both of them compute: antisymmetry in every bit, central flux, dissipation.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "engine/aligned.hpp"
+#include "engine/registry.hpp"
+#include "tests/unit/random_tensor.hpp"
+
+using namespace nanson;
+using namespace nanson::test;
+
+namespace {
+
+struct Combination {
+  PhysicsSpec physics;
+  std::string name() const {
+    return std::string(word(physics.reconstruction)) + " " + std::string(word(physics.flux_correction)) + " " + std::string(word(physics.formulation)) + " " +
+           std::string(word(physics.pressure_jump)) + " " + std::string(word(physics.upwind_metric));
+  }
+  bool evolves_J() const { return physics.formulation != Formulation::pF; }
+  int width() const { return physics.flux_correction == FluxCorrection::none ? 4 : 8; }
+};
+
+/// Every edge loop that is built: 2 metrics x {pF, scalar jump, tensor jump} x {constant, linear with none, pressure, full}.
+std::vector<Combination> combinations() {
+  std::vector<Combination> all;
+  for (const UpwindMetric metric : {UpwindMetric::deformed, UpwindMetric::paper})
+    for (const Reconstruction reconstruction : {Reconstruction::constant, Reconstruction::linear})
+      for (const FluxCorrection correction : {FluxCorrection::none, FluxCorrection::pressure, FluxCorrection::full})
+        for (const Formulation formulation : {Formulation::pF, Formulation::pFJ})
+          for (const PressureJump jump : {PressureJump::scalar, PressureJump::tensor}) {
+            if (reconstruction == Reconstruction::constant && correction != FluxCorrection::none) continue;
+            if (formulation == Formulation::pF && jump == PressureJump::tensor) continue;
+            PhysicsSpec physics;
+            physics.reconstruction = reconstruction, physics.flux_correction = correction, physics.upwind_metric = metric;
+            physics.formulation = formulation, physics.pressure_jump = jump;
+            all.push_back({physics});
+          }
+  return all;
+}
+
+/// Rows 0 to 7 are part 0, 8 to 15 part 1; the edge joins rows 0 and 8. Random rows.
+struct TwoParts {
+  static constexpr int rows = 16, a = 0, b = 8;
+  Aligned<double> X, W, PH, G, Q, GP;
+  std::int32_t first[64] = {a, b}, second[64] = {b, a}, none[rows + 1] = {}, out[rows + 1] = {};
+  double C[3][64] = {}, size[64] = {};
+  Part part[2] = {{0, 8, 0, 1, 0, 0, 0, 0}, {8, 16, 1, 2, 0, 0, 0, 0}};
+  Coefficients k;
+  double flux[2][8];
+
+  explicit TwoParts(Random& random) {
+    const auto fill = [&](Aligned<double>& x, int width) {
+      x.resize(static_cast<std::size_t>(width * rows));
+      for (double& value : x) value = uniform(random, -1, 1);
+    };
+    fill(X, row::X), fill(W, row::W), fill(PH, row::PH), fill(G, row::G), fill(Q, row::Q), fill(GP, row::GP);
+    for (int n = 0; n < rows; ++n) {
+      for (int m = 0; m < 6; ++m) PH[row::PH * n + 4 * m + 3] = 0;  // the lanes that are zero in a run
+      for (int m = 0; m < 3; ++m) Q[row::Q * n + 4 * m + 3] = 0;
+      for (int m = 0; m < 9; ++m) GP[row::GP * n + 4 * m + 3] = 0;
+      X[row::X * n + 3] = 2;
+      out[n] = n > 8 ? 2 : n > 0 ? 1 : 0;
+    }
+    out[rows] = 2;
+    for (int i = 0; i < 3; ++i) C[i][0] = uniform(random, -1, 1), C[i][1] = -C[i][0];
+    size[0] = size[1] = std::sqrt(C[0][0] * C[0][0] + C[1][0] * C[1][0] + C[2][0] * C[2][0]);
+    k.rho_cp = 3, k.rho_cs = 1.2;
+  }
+  Rows nodal() {
+    Rows r{};
+    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.Q = Q.data(), r.GP = GP.data();
+    return r;
+  }
+  EdgeArrays edges() const { return {first, second, {C[0], C[1], C[2]}, size}; }
+  NodeLists lists() const { return {out, none, none, none}; }
+  PartFunctions functions(const Combination& c) const { return find_part_functions(c.physics, MaterialSpec{}); }
+
+  /// Flux as both parts see it; lanes 4 to 7 are q of a flux correction.
+  void run(const Combination& c) {
+    for (int p = 0; p < 2; ++p) {
+      alignas(64) double edge[8] = {};
+      functions(c).edge_flux(part[p], edges(), CornerArrays{}, lists(), nodal(), k, {edge, nullptr, nullptr});
+      for (int i = 0; i < 8; ++i) flux[p][i] = edge[i];
+    }
+  }
+  /// P_ave C with the nodal stress of the correction.
+  std::array<double, 3> central(const Combination& c) const {
+    const bool full = c.physics.flux_correction == FluxCorrection::full;
+    const Aligned<double>& stress = full ? Q : PH;
+    const int stride = full ? row::Q : row::PH, column = full ? 4 : 8;
+    std::array<double, 3> t{};
+    for (int i = 0; i < 3; ++i)
+      for (int I = 0; I < 3; ++I) t[i] += 0.5 * (stress[stride * a + column * I + i] + stress[stride * b + column * I + i]) * C[I][0];
+    return t;
+  }
+  /// v, Sigma_J and P linear in X, with their gradients in G and GP; Q = P.
+  void make_linear(Random& random) {
+    double slope[3][4], P0[9], slope_P[3][9];
+    const auto fill = [&](auto& values) {
+      for (double& x : values) x = uniform(random, -1, 1);
+    };
+    for (int I = 0; I < 3; ++I) fill(slope[I]), fill(slope_P[I]);
+    fill(P0);
+    for (const int n : {a, b}) {
+      const double* x = &X[row::X * n];
+      for (int i = 0; i < 4; ++i) {
+        W[row::W * n + i] = 0.3 * i + slope[0][i] * x[0] + slope[1][i] * x[1] + slope[2][i] * x[2];
+        for (int I = 0; I < 3; ++I) G[row::G * n + 4 * I + i] = slope[I][i];
+      }
+      for (int m = 0; m < 9; ++m) {
+        const double P = P0[m] + slope_P[0][m] * x[0] + slope_P[1][m] * x[1] + slope_P[2][m] * x[2];
+        PH[row::PH * n + 8 * (m / 3) + m % 3] = Q[row::Q * n + 4 * (m / 3) + m % 3] = P;
+        for (int K = 0; K < 3; ++K) GP[row::GP * n + 4 * (3 * K + m / 3) + m % 3] = slope_P[K][m];
+      }
+    }
+  }
+};
+
+}  // namespace
+
+TEST(EdgeFluxPart, SeenFromTheOtherPartIsBitwiseTheOpposite) {
+  ASSERT_EQ(combinations().size(), 24u);
+  for (const Combination& c : combinations()) {
+    Random random(1);
+    for (int k = 0; k < 100; ++k) {
+      TwoParts two(random);
+      two.run(c);
+      for (int i = 0; i < 4; ++i) EXPECT_EQ(two.flux[0][i], -two.flux[1][i]) << c.name() << " lane " << i;
+      EXPECT_NE(two.flux[0][0], 0.0) << c.name();
+      EXPECT_EQ(two.flux[0][3] != 0, c.evolves_J()) << c.name();
+    }
+  }
+}
+
+TEST(EdgeFluxPart, CorrectionOfTheVelocityGradientIsBitwiseTheSameFromBothParts) {
+  for (const Combination& c : combinations()) {
+    if (c.width() == 4) continue;
+    Random random(2);
+    for (int k = 0; k < 100; ++k) {
+      TwoParts two(random);
+      two.run(c);
+      for (int i = 0; i < 4; ++i) {
+        double q = 0;  // (theta/4)(G_a - G_b) . D
+        for (int I = 0; I < 3; ++I)
+          q += 0.25 * two.k.theta * (two.G[4 * I + i] - two.G[row::G * two.b + 4 * I + i]) * (two.X[row::X * two.b + I] - two.X[I]);
+        EXPECT_EQ(two.flux[0][4 + i], two.flux[1][4 + i]) << c.name();
+        EXPECT_NEAR(two.flux[0][4 + i], q, 1e-15) << c.name();
+      }
+    }
+  }
+}
+
+TEST(EdgeFluxPart, LinearFieldsGiveTheCentralFluxAlone) {
+  for (const Combination& c : combinations()) {
+    if (c.physics.reconstruction == Reconstruction::constant) continue;
+    Random random(3);
+    for (int k = 0; k < 100; ++k) {
+      TwoParts two(random);
+      two.make_linear(random);
+      two.run(c);
+      const auto t = two.central(c);
+      for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i], t[i], 1e-13) << c.name();
+      EXPECT_NEAR(two.flux[0][3], 0, 1e-13) << c.name();
+    }
+  }
+}
+
+TEST(EdgeFluxPart, ConstantReconstructionDampsLinearFields) {
+  for (const Combination& c : combinations()) {
+    if (c.physics.reconstruction == Reconstruction::linear) continue;
+    Random random(4);
+    TwoParts two(random);
+    two.make_linear(random);
+    two.run(c);
+    const auto t = two.central(c);
+    EXPECT_GT(std::abs(two.flux[0][0] - t[0]) + std::abs(two.flux[0][1] - t[1]) + std::abs(two.flux[0][2] - t[2]), 1e-2) << c.name();
+  }
+}
+
+TEST(EdgeFluxPart, PressureCorrectionActsAlongTheDeformedArea) {
+  Random random(5);
+  for (const Combination& c : combinations()) {
+    if (c.physics.flux_correction != FluxCorrection::pressure) continue;
+    Combination plain = c;
+    plain.physics.flux_correction = FluxCorrection::none;
+    TwoParts two(random);
+    two.run(plain);
+    double before[4], area[3] = {};
+    std::copy(two.flux[0], two.flux[0] + 4, before);
+    two.run(c);
+    for (int i = 0; i < 3; ++i)
+      for (int I = 0; I < 3; ++I) area[i] += 0.5 * (two.PH[8 * I + 4 + i] + two.PH[row::PH * two.b + 8 * I + 4 + i]) * two.C[I][0];
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i] - before[i], two.flux[0][7] * area[i], 1e-13) << c.name();
+    EXPECT_EQ(two.flux[0][3], before[3]) << c.name();
+  }
+}
+
+TEST(EdgeFluxPart, DissipationIsThePowerOfTheStabilisationCountedOnce) {
+  for (const Combination& c : combinations()) {
+    if (c.physics.flux_correction != FluxCorrection::none) continue;
+    Random random(6);
+    for (int k = 0; k < 100; ++k) {
+      TwoParts two(random);
+      two.run(c);
+      const auto t = two.central(c);
+      double expected = (two.W[row::W * two.b + 3] - two.W[3]) * two.flux[0][3];
+      for (int i = 0; i < 3; ++i) expected += (two.W[row::W * two.b + i] - two.W[i]) * (two.flux[0][i] - t[i]);
+      double power = 0;
+      for (const Part& part : two.part) power += two.functions(c).dissipation(part, two.edges(), two.lists(), two.nodal(), two.k);
+      EXPECT_NEAR(power, expected, 1e-12) << c.name();
+      if (c.physics.reconstruction == Reconstruction::constant && c.physics.pressure_jump == PressureJump::scalar) {
+        EXPECT_GT(power, 0.0) << c.name();
+      }
+    }
+  }
+}
