@@ -37,6 +37,7 @@ std::vector<Probe> place_probes(const Scene& scene, const Mesh& mesh) {
 std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vector<Probe>& probes) {
   std::vector<HistoryColumn> c{{"step", "-"}, {"t", "s"}, {"dt", "s"}, {"kinetic", "J"}, {"strain", "J"}};
   if (s.scene->monitor.energy) c.insert(c.end(), {{"external_work", "J"}, {"dissipated", "J"}, {"closure", "-"}});
+  if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) c.push_back({"angular_momentum_work", "J"});
   for (const char* k : axis) c.push_back({fmt::format("momentum_{}", k), "kg m/s"});
   for (const char* k : axis) c.push_back({fmt::format("angular_momentum_{}", k), "kg m^2/s"});
   c.insert(c.end(), {{"min_det_F", "-"}, {"max_det_F", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
@@ -57,6 +58,7 @@ std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes)
   const Extrema x = extrema(s);
   std::vector<double> row{static_cast<double>(s.step), s.t, s.dt, e.kinetic, e.strain};
   if (s.scene->monitor.energy) row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s)});
+  if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) row.push_back(s.ledger.angular_momentum_work);
   row.insert(row.end(), m.linear.begin(), m.linear.end());
   row.insert(row.end(), m.angular.begin(), m.angular.end());
   row.insert(row.end(), {x.min_detF, x.max_detF, x.min_J, x.max_J, x.max_speed});

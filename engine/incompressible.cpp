@@ -22,7 +22,7 @@ Residual constraint_residual(Simulation& s, const ProjectionRows& rows) {
   Residual r{std::sqrt(sum.s[0]), std::sqrt(sum.s[1])};
   if (!p.closed) return r;
   const double mean = sum.s[2] / p.total_volume;
-  r.norm = std::sqrt(sum_three(s, [&](const Part& part) { return Three{{subtract_mean_part(part, rows, mean), 0, 0}}; }).s[0]);
+  r.norm = std::sqrt(sum_over_parts(s, [&](int i) { return subtract_mean_part(p.parts[i], rows, mean); }));
   return r;
 }
 

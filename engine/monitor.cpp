@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/angular_momentum.hpp"
 #include "engine/parts.hpp"
 
 namespace nanson {
@@ -24,9 +25,8 @@ double sum_over_nodes(Simulation& s, Term term) {
   return sum_over_parts(s, [&](int p) {
     const Part& part = s.order.parts[static_cast<std::size_t>(p)];
     double sum = 0;
-    for (int n = part.node_begin; n < part.node_end; ++n)
-      if (s.order.node_of[static_cast<std::size_t>(n)] >= 0)
-        sum += term(&s.state.U[0][static_cast<std::size_t>(row::U * n)], s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * n + 3)]);
+    for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n)
+      sum += term(&s.state.U[0][static_cast<std::size_t>(row::U * n)], s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * n + 3)]);
     return sum;
   });
 }
@@ -53,7 +53,7 @@ Energies energies(Simulation& s) {
   e.kinetic = sum_over_nodes(s, [](const double* U, double m) { return 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]); });
   e.strain = sum_over_parts(s, [&](int p) {
     Part part = s.order.parts[static_cast<std::size_t>(p)];
-    while (part.node_end > part.node_begin && s.order.node_of[static_cast<std::size_t>(part.node_end - 1)] < 0) --part.node_end;
+    part.node_end = part.node_begin + nodes_of(s, part);
     return s.functions.strain_energy(part, rows, s.coefficients);
   });
   return e;
@@ -89,7 +89,7 @@ Extrema extrema(const Simulation& s) {
 double energy_closure(Simulation& s) {
   const Energies e = energies(s);
   const Ledger& l = s.ledger;
-  const double residual = std::abs(e.kinetic + e.strain + l.dissipated - l.external_work - l.initial_energy), scale = energy_scale(s);
+  const double residual = std::abs(e.kinetic + e.strain + l.dissipated - l.external_work - l.angular_momentum_work - l.initial_energy), scale = energy_scale(s);
   return scale > 0 ? residual / scale : 0;
 }
 
@@ -103,10 +103,11 @@ double linear_momentum_drift(Simulation& s) {
 
 std::optional<double> angular_momentum_drift(Simulation& s) {
   const Vec3& g = s.scene->body_force;
-  if (!s.boundary.constraints.empty() || !s.boundary.loaded.empty() || g[0] != 0 || g[1] != 0 || g[2] != 0) return std::nullopt;
+  const bool free = s.boundary.constraints.empty() && s.boundary.loaded.empty() && g[0] == 0 && g[1] == 0 && g[2] == 0;
+  if (!free && s.scene->time.integrator != Integrator::tvd_rk2) return std::nullopt;
   const Momenta m = momenta(s);
-  const Vec3& L = s.ledger.initial_angular_momentum;
-  return m.angular_scale > 0 ? norm3(m.angular[0] - L[0], m.angular[1] - L[1], m.angular[2] - L[2]) / m.angular_scale : 0;
+  const Vec3 &L = s.ledger.initial_angular_momentum, &I = s.ledger.angular_impulse;
+  return m.angular_scale > 0 ? norm3(m.angular[0] - L[0] - I[0], m.angular[1] - L[1] - I[1], m.angular[2] - L[2] - I[2]) / m.angular_scale : 0;
 }
 
 double checkerboard(Simulation& s) {
@@ -172,8 +173,7 @@ void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
     power += sum_over_parts(s, [&](int p) {
       const Part& part = s.order.parts[static_cast<std::size_t>(p)];
       double sum = 0;
-      for (int n = part.node_begin; n < part.node_end; ++n) {
-        if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;  // padding falls too
+      for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {  // padding falls too
         const double* v = rows.W + row::W * n;
         sum += s.coefficients.material.rho / rows.X[row::X * n + 3] * (g[0] * v[0] + g[1] * v[1] + g[2] * v[2]);
       }
@@ -182,16 +182,30 @@ void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
   s.ledger.external_work += weighted_dt * power;
 }
 
-void book_step(Simulation& s) {
-  for (std::size_t i = 0; i < s.boundary.constraints.size(); ++i) {
-    const Constraint& h = s.boundary.constraints[i];
-    const double* R = &s.state.reactions[reaction_row * i];
-    for (int m = 0; m < h.count; ++m)
-      for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * R[m] * h.d[m][k];
-    if (s.scene->monitor.energy) s.ledger.external_work += s.dt * R[3];
+void book_stage(Simulation& s, const double* arms, double mean, bool first) {
+  Ledger& l = s.ledger;
+  const double dt = mean * s.dt;
+  if (!s.boundary.constraints.empty()) {
+    const auto sum = sums_over_parts<4>(s, [&](int p, double* out) {
+      const Part& part = s.order.parts[static_cast<std::size_t>(p)];
+      for (int i = part.constraint_begin; i < part.constraint_end; ++i) {
+        const Constraint& h = s.boundary.constraints[static_cast<std::size_t>(i)];
+        const double* R = &s.state.reactions[static_cast<std::size_t>(reaction_row * i)];
+        double* average = &s.state.mean_reactions[static_cast<std::size_t>(reaction_row * i)];
+        for (int m = 0; m < reaction_row; ++m) average[m] = (first ? 0 : average[m]) + mean * R[m];
+        for (int m = 0; m < h.count; ++m)
+          for (int k = 0; k < 3; ++k) out[k] += R[m] * h.d[m][k];
+        out[3] += R[3];
+      }
+    });
+    for (int k = 0; k < 3; ++k) l.impulse[k] += dt * sum[k];
+    if (s.scene->monitor.energy) l.external_work += dt * sum[3];
   }
-  for (int k = 0; k < 3; ++k) s.ledger.impulse[k] += s.dt * s.ledger.mass * s.scene->body_force[k];
-  s.ledger.largest_work = std::max(s.ledger.largest_work, std::abs(s.ledger.external_work));
+  for (int k = 0; k < 3; ++k) l.impulse[k] += dt * l.mass * s.scene->body_force[k];
+  l.largest_work = std::max(l.largest_work, std::abs(l.external_work));
+  if (s.scene->time.integrator != Integrator::tvd_rk2) return;
+  const Vec3 torque = external_torque(s, arms, {});
+  for (int k = 0; k < 3; ++k) l.angular_impulse[k] += dt * torque[k];
 }
 
 Vec3 reaction(const Simulation& s, int face) {
@@ -199,7 +213,7 @@ Vec3 reaction(const Simulation& s, int face) {
   for (std::size_t i = 0; i < s.boundary.constraints.size(); ++i) {
     const Constraint& h = s.boundary.constraints[i];
     for (int m = 0; m < h.count; ++m)
-      for (int k = 0; k < 3 && h.face[m] == face; ++k) sum[k] += s.state.reactions[reaction_row * i + static_cast<std::size_t>(m)] * h.d[m][k];
+      for (int k = 0; k < 3 && h.face[m] == face; ++k) sum[k] += s.state.mean_reactions[reaction_row * i + static_cast<std::size_t>(m)] * h.d[m][k];
   }
   return sum;
 }

@@ -22,13 +22,13 @@ Energies energies(Simulation& s);
 Momenta momenta(Simulation& s);
 Extrema extrema(const Simulation& s);
 
-/// |kinetic + strain + dissipated - external_work - initial| over the larger of the initial energy and the largest external work so far
-/// (method, section 11); needs monitor.energy.
+/// |kinetic + strain + dissipated - external_work - angular_momentum_work - initial| over the larger of the initial energy and the largest
+/// external work so far (method, section 11); needs monitor.energy.
 double energy_closure(Simulation& s);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
 double linear_momentum_drift(Simulation& s);
-/// |L - L(0)| / sum Omega |x| |p|; nothing when supports or loads exert a torque.
+/// |L - L(0) - angular impulse| / sum Omega |x| |p|; nothing under ssp_rk3 when supports or loads exert a torque: its exact arms are known for TVD-RK2 only.
 std::optional<double> angular_momentum_drift(Simulation& s);
 
 /// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
@@ -40,8 +40,8 @@ double checkerboard(Simulation& s);
 
 /// One stage's share of dissipation and external work, from the rows of the stage before its update.
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
-/// Impulse and work of supports and body force over the step.
-void book_step(Simulation& s);
+/// After a stage: its share `mean` in the mean reactions, in impulse and work of supports and body force, and in the angular impulse of all that acts.
+void book_stage(Simulation& s, const double* arms, double mean, bool first);
 
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
 Breakdown locate_breakdown(Simulation& s, int stage);

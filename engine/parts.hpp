@@ -2,6 +2,7 @@
 #pragma once
 #include <omp.h>
 
+#include <array>
 #include <span>
 
 #include "engine/solver.hpp"
@@ -30,11 +31,40 @@ inline double tree_sum(std::span<const double> x) {
   return tree_sum(x.first(half)) + tree_sum(x.subspan(half));
 }
 
+/// Nodes of a part, without the padding at its end.
+inline int nodes_of(const Simulation& s, const Part& part) {
+  int end = part.node_end;
+  while (end > part.node_begin && s.order.node_of[static_cast<std::size_t>(end - 1)] < 0) --end;
+  return end - part.node_begin;
+}
+
 /// Sum of term(part index) over all parts.
 template <class Term>
 double sum_over_parts(Simulation& s, Term term) {
   for_parts(s, [&](int p, Scratch) { s.part_sums[static_cast<std::size_t>(p)] = term(p); });
   return tree_sum(s.part_sums);
+}
+
+/// Sums of the first `count` entries of all rows of s.part_rows.
+template <std::size_t count>
+std::array<double, count> tree_sums(Simulation& s) {
+  std::array<double, count> sums;
+  for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t p = 0; p < s.part_rows.size(); ++p) s.part_sums[p] = s.part_rows[p][i];
+    sums[i] = tree_sum(s.part_sums);
+  }
+  return sums;
+}
+
+/// Sums over all parts of what add(part index, sums of the part) adds to zeros.
+template <std::size_t count, class Add>
+std::array<double, count> sums_over_parts(Simulation& s, Add add) {
+  for_parts(s, [&](int p, Scratch) {
+    double* sums = s.part_rows[static_cast<std::size_t>(p)].data();
+    for (std::size_t i = 0; i < count; ++i) sums[i] = 0;
+    add(p, sums);
+  });
+  return tree_sums<count>(s);
 }
 
 }  // namespace nanson

@@ -30,7 +30,7 @@ struct Sweeps {
     return sum_three(s, [&](const Part& part) { return pressure_operator_part(part, edges, corners, lists, rows, k); });
   }
   Three step(double alpha, double mean_of_Kd) {
-    return sum_three(s, [&](const Part& part) { return pressure_step_part(part, rows, alpha, mean_of_Kd, 0.5, s.state.reactions.data()); });
+    return sum_three(s, [&](const Part& part) { return pressure_step_part(part, rows, alpha, mean_of_Kd, s.state.reactions.data()); });
   }
   void direction(double mean_of_z, double beta) {
     for_parts(s, [&](int p, Scratch) { pressure_direction_part(s.projection.parts[p], rows, mean_of_z, beta); });
@@ -57,17 +57,17 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
   Simulation& s = sweep.s;
   Projection& p = s.projection;
   const double dt = sweep.k.dt, speed = length / dt, gamma = sweep.k.rho * speed * speed;
-  for_parts(s, [&](int i, Scratch) { p.part_sums[i] = pseudo_step_part(p.parts[i], sweep.edges, sweep.rows, 1 / speed); });
-  const double dtau = *std::min_element(p.part_sums.begin(), p.part_sums.begin() + static_cast<std::ptrdiff_t>(p.parts.size())), keep = 1 / (1 + dtau / dt);
+  for_parts(s, [&](int i, Scratch) { s.part_sums[i] = pseudo_step_part(p.parts[i], sweep.edges, sweep.rows, 1 / speed); });
+  const double dtau = *std::min_element(s.part_sums.begin(), s.part_sums.end()), keep = 1 / (1 + dtau / dt);
   std::fill(p.d.begin(), p.d.end(), 0.0), std::fill(p.Kd.begin(), p.Kd.end(), 0.0), std::fill(p.V.begin(), p.V.end(), 0.0), std::fill(p.removed.begin(), p.removed.end(), 0.0);
   PressureSolve out{0, norm};
   double mean = 0, sum = 0;
   while (out.norm > goal && out.iterations < most) {
-    sum = sum_three(s, [&](const Part& part) { return Three{{pseudo_pressure_part(part, sweep.rows, sweep.k, gamma * dtau, mean), 0, 0}}; }).s[0];
+    sum = sum_over_parts(s, [&](int i) { return pseudo_pressure_part(p.parts[i], sweep.rows, sweep.k, gamma * dtau, mean); });
     sweep.force(keep, keep * dtau);
     mean = sweep.mean(sweep.apply().s[1]);
     ++out.iterations;
-    out.norm = std::sqrt(sum_three(s, [&](const Part& part) { return Three{{pseudo_residual_part(part, sweep.rows, mean), 0, 0}}; }).s[0]);
+    out.norm = std::sqrt(sum_over_parts(s, [&](int i) { return pseudo_residual_part(p.parts[i], sweep.rows, mean); }));
   }
   if (sweep.closed)
     for (double& d : p.d) d -= sum / sweep.total_volume;

@@ -18,15 +18,11 @@ PressureSolve solve_pressure(Simulation& s, const ProjectionRows& rows, double n
 /// Sums of term(part) over the parts without padding, in an order that no thread count changes.
 template <class Term>
 Three sum_three(Simulation& s, Term term) {
-  const std::size_t count = s.projection.parts.size();
-  std::vector<double>& sums = s.projection.part_sums;
-  for_parts(s, [&](int p, Scratch) {
+  const auto sum = sums_over_parts<3>(s, [&](int p, double* out) {
     const Three t = term(s.projection.parts[static_cast<std::size_t>(p)]);
-    for (std::size_t k = 0; k < 3; ++k) sums[k * count + static_cast<std::size_t>(p)] = t.s[k];
+    for (int k = 0; k < 3; ++k) out[k] = t.s[k];
   });
-  Three sum;
-  for (std::size_t k = 0; k < 3; ++k) sum.s[k] = tree_sum({&sums[k * count], count});
-  return sum;
+  return {{sum[0], sum[1], sum[2]}};
 }
 
 }  // namespace nanson

@@ -41,7 +41,7 @@ Projection make_projection(const Scene& scene, const Order& order, const Boundar
   for (auto* v : {&p.volume[0], &p.volume[1], &p.taken[0], &p.taken[1], &p.fixed, &p.lag, &p.inverse_diagonal, &p.weight_sum, &p.R, &p.d, &p.Kd}) v->assign(rows, 0.0);
   p.held.assign(rows, -1);
   for (std::size_t i = 0; i < boundary.constraints.size(); ++i) p.held[boundary.constraints[i].node] = static_cast<std::int32_t>(i);
-  p.removed.assign(3 * boundary.constraints.size(), 0.0), p.part_sums.assign(3 * order.parts.size(), 0.0);
+  p.removed.assign(3 * boundary.constraints.size(), 0.0);
   for (int n = 0; n < order.rows; ++n)
     if (order.node_of[n] >= 0) p.total_volume += 1.0 / X[row::X * n + 3];
   ProjectionCoefficients& k = p.coefficients;

@@ -18,7 +18,6 @@ struct Projection {
   Aligned<double> fixed, lag, inverse_diagonal, weight_sum, R, d, Kd;
   std::vector<std::int32_t> held;           // row -> its constraint, -1 without
   std::vector<double> removed;              // [N] 3 a constraint
-  std::vector<double> part_sums;            // 3 a part
   double total_volume = 0;                  // [m^3]
   bool closed = false;                      // every boundary node is held along its normal and 1/kappa = 0: the pressure's constant is free, its mean is kept at 0
 

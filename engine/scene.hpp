@@ -15,7 +15,7 @@ using Vec3 = std::array<double, 3>;
 
 enum class MeshSource { box, file };
 enum class Split { alternating, kuhn };
-enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave };
+enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave, punch };
 enum class InitialJ { linear, det };               // J(0) = 1 + tr(F - I) | det F
 enum class BoundaryKind { fixed, free, symmetric, skew_symmetric, traction, pressure, velocity };
 enum class TimeKind { constant, ramp, sine, pulse, logistic, table };
@@ -27,7 +27,9 @@ enum class OnLimit { stop, warn };
 
 constexpr auto words(MeshSource) { return std::array<std::string_view, 2>{"box", "file"}; }
 constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
-constexpr auto words(InitialField) { return std::array<std::string_view, 7>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave"}; }
+constexpr auto words(InitialField) {
+  return std::array<std::string_view, 8>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave", "punch"};
+}
 constexpr auto words(InitialJ) { return std::array<std::string_view, 2>{"linear", "det"}; }
 constexpr auto words(BoundaryKind) { return std::array<std::string_view, 7>{"fixed", "free", "symmetric", "skew_symmetric", "traction", "pressure", "velocity"}; }
 constexpr auto words(TimeKind) { return std::array<std::string_view, 6>{"constant", "ramp", "sine", "pulse", "logistic", "table"}; }
@@ -72,6 +74,7 @@ struct PhysicsSpec {
   BoundaryFlux boundary_flux = BoundaryFlux::adjoint;
   UpwindMetric upwind_metric = UpwindMetric::deformed;
   EntropyFix entropy_fix = EntropyFix::none;
+  bool keep_angular_momentum = false;              // tvd_rk2 only
 };
 
 /// pFp only (method, section 10).
@@ -92,7 +95,8 @@ struct InitialSpec {
   Vec3 omega{};                                    // [rad/s] rotation
   std::optional<Vec3> centre;                      // [m] rotation; none: the centre of mass ("mass")
   double twist_omega = 0;                          // [rad/s] twist: omega = (0, 0, twist_omega sin(pi Z / (2 height)))
-  double height = 0;                               // [m] twist
+  double height = 0;                               // [m] twist, punch
+  double v0 = 0;                                   // [m/s] punch: v_Z = -v0 (1/2 - |X|)(1/2 - |Y|) Z / height, X and Y in metres
   double amplitude = 0;                            // [m] plate_mode, standing_wave, plane_wave
   double mode_omega = 0;                           // [1/s] plate_mode
   double B = 0;                                    // [1/m] plate_mode

@@ -110,7 +110,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   s.functions = find_part_functions(scene.physics, scene.material);
   s.coefficients = coefficients_of(scene);
   s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
-  s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
+  s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
   s.scratch.resize(static_cast<std::size_t>(s.threads));
   for (auto& scratch : s.scratch) scratch.assign(static_cast<std::size_t>(8 * s.order.most_rows + 16 * s.order.most_nodes) + 16, 0.0);
   set_initial_state(s);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/angular_momentum.hpp"
 #include "engine/incompressible.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
@@ -38,6 +39,10 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
   return sum;
 }
 
+bool broken(const Simulation& s) {
+  return std::any_of(s.reports.begin(), s.reports.end(), [](const PartReport& r) { return r.broken; });
+}
+
 /// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
 /// The incompressible scheme projects before the stress. Returns why the run must not go on, or nothing.
 std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
@@ -45,12 +50,14 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const bool projected = s.scene->physics.formulation == Formulation::pFp;
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
-  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.reaction_weight = rk.mean, k.first_stage = number == 0;
+  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt;
   const Rows rows = stage_rows(u, from, to);
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
   const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
+  const bool keeps = s.scene->physics.keep_angular_momentum;
+  const double* arms = u.U[0].data();  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
 
   if (!s.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
@@ -68,12 +75,16 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
       }
       s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
+      if (keeps) sum_moments(s, rows, arms, p, scratch);
       if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
     });
   });
-  if (projected) return project_stage(s, number);
-  u.now = 1 - u.now;
-  return {};
+  if (keeps && !broken(s))
+    s.clock.time("keep_angular_momentum", [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
+  const std::string failure = projected ? project_stage(s, number) : std::string();
+  book_stage(s, arms, rk.mean, number == 0);
+  if (!projected) u.now = 1 - u.now;
+  return failure;
 }
 
 /// Rate of each condition's time factor over the step: prescribed velocities are then exact at t + dt, in every Runge-Kutta stage.
@@ -82,10 +93,6 @@ void prescribe(Simulation& s, std::vector<double>& acceleration) {
     const TimeFunction& f = s.boundary.conditions[i].time;
     acceleration[i] = s.boundary.conditions[i].kind == BoundaryKind::velocity ? (value_at(f, s.t + s.dt) - value_at(f, s.t)) / s.dt : 0.0;
   }
-}
-
-bool broken(const Simulation& s) {
-  return std::any_of(s.reports.begin(), s.reports.end(), [](const PartReport& r) { return r.broken; });
 }
 
 /// The step for the rest of the way: at most 5 % larger than the last, and `end` is hit by sharing the last two steps.
@@ -141,7 +148,6 @@ void advance(Simulation& s) {
     }
   }
   s.t += s.dt, ++s.step;
-  book_step(s);
 }
 
 double allowed_step(const Simulation& s) {

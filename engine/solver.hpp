@@ -1,5 +1,6 @@
 // A simulation: the whole of a scene in memory, and the time loop over it.
 #pragma once
+#include <array>
 #include <functional>
 #include <optional>
 #include <string>
@@ -12,6 +13,8 @@
 
 namespace nanson {
 
+inline constexpr int part_row = 16;       // sums of a part that are taken in one sweep
+
 /// Sums that a run carries from its start: what momentum and energy are compared with.
 struct Ledger {
   double mass = 0, volume = 0;            // [kg], [m^3]
@@ -19,7 +22,9 @@ struct Ledger {
   double initial_energy = 0;              // [J]
   Vec3 initial_momentum{}, initial_angular_momentum{};  // [kg m/s], [kg m^2/s]
   Vec3 impulse{};                         // [N s] of loads, body force and supports
+  Vec3 angular_impulse{};                 // [N m s] of the same, TVD-RK2 only
   double external_work = 0, dissipated = 0;   // [J] monitor.energy
+  double angular_momentum_work = 0;       // [J] of the angular momentum projection
   double largest_work = 0;                // [J] largest |external_work| so far
   long balanced_step = 0;                 // last history row at which energy had not grown
 };
@@ -54,6 +59,8 @@ struct Simulation {
   std::string warning;                    // the first one that a run should show
   std::vector<double> acceleration;       // [1/s] per boundary condition: rate of the time factor over the step
   std::vector<double> part_sums;          // one a part, for sums in a fixed order
+  std::vector<std::array<double, part_row>> part_rows;  // several a part
+  Vec3 arm_origin{};                      // [m] keep_angular_momentum: what its arms are counted from
 };
 
 /// What a run tells the outside; the engine itself touches no file.

@@ -74,7 +74,7 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
   if (p.stabilisation == Stabilisation::jst) s.lambda = laplacian_weights(mesh, dual, order);
   s.loads.assign(4 * boundary.slot_nodes.size(), 0.0);
-  s.reactions.assign(reaction_row * boundary.constraints.size(), 0.0);
+  s.reactions.assign(reaction_row * boundary.constraints.size(), 0.0), s.mean_reactions = s.reactions;
   return s;
 }
 
@@ -90,7 +90,7 @@ Rows stage_rows(State& u, int from, int to) {
 }
 
 double bytes_per_node(const State& s, const Order& o) {
-  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.step_length.size() + s.loads.size() + s.reactions.size() + o.size.size();
+  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.step_length.size() + s.loads.size() + 2 * s.reactions.size() + o.size.size();
   for (int k = 0; k < 2; ++k) doubles += s.U[k].size() + s.H[k].size() + s.W[k].size() + s.PH[k].size();
   for (int k = 0; k < 3; ++k) doubles += o.C[k].size() + o.corner_C[k].size();
   const std::size_t ints = o.a.size() + o.b.size() + o.out.size() + o.in.size() + o.in_edges.size() + o.corner.size() + o.corner_b.size() + o.corner_c.size() +
@@ -108,6 +108,7 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   if (p.flux_correction != FluxCorrection::full) out.push_back("Q and its pass (flux_correction is not full): 96 bytes");
   if (p.pressure_jump == PressureJump::scalar) out.push_back("gradient of P (scalar pressure jump): 288 bytes");
   if (p.reconstruction != Reconstruction::limited) out.push_back("limiter (reconstruction is not limited): 32 bytes");
+  if (!p.keep_angular_momentum) out.push_back("angular momentum projection (keep_angular_momentum = false): two passes over the nodes a stage");
   if (!scene.monitor.energy) out.push_back("energy audit (monitor.energy = false): one edge sweep a stage");
   return out;
 }

@@ -20,7 +20,7 @@ struct State {
   Aligned<double> L, lambda;               // limiter (limited); pseudo-Laplacian and its weights (jst)
   Aligned<double> step_length;             // [m] per node: dt = cfl min l/c
   Aligned<double> loads;                   // [N] 4 a loaded face
-  std::vector<double> reactions;           // reaction_row a constraint
+  std::vector<double> reactions, mean_reactions;  // reaction_row a constraint: of the last stage, mean of the last step's stages
   int now = 0;                             // which of W, PH belongs to the present state
 };
 

@@ -10,6 +10,7 @@ namespace nanson {
 struct EnergySummary {
   double initial = 0, kinetic = 0, strain = 0;                    // [J]
   std::optional<double> external_work, dissipated, closure;       // [J], [J], [-]: only with monitor.energy
+  std::optional<double> angular_momentum_work;                    // [J] of keep_angular_momentum: only with both
   std::optional<double> lost_at_start;                            // [J] kinetic energy that the constraints removed from v(0)
 };
 
@@ -43,7 +44,8 @@ struct Summary {
   std::string state_hash;
   EnergySummary energy;
   double mass = 0, volume = 0;                                    // [kg], [m^3]
-  std::optional<double> angular_momentum_drift;                   // [-] only without supports and loads
+  bool keep_angular_momentum = false;
+  std::optional<double> angular_momentum_drift;                   // [-] ssp_rk3: only without supports and loads
   double linear_momentum_drift = 0;                               // [-]
   double min_detF = 0, max_detF = 0;
   std::map<std::string, double> errors;                           // empty without an exact solution

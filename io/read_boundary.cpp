@@ -129,13 +129,12 @@ void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary) {
 
 void read_time_function(Table& t, TimeFunction& f) {
   using enum TimeKind;
-  const bool known = read_kind<TimeKind>(t, "kind", f.kind, true,
-                                         {{ramp, {"until"}},
-                                          {sine, {"frequency", "phase"}},
-                                          {pulse, {"from", "until"}},
-                                          {logistic, {"rate", "centre", "until"}},
-                                          {table, {"points"}}});
-  if (!known) return;
+  read_kind<TimeKind>(t, "kind", f.kind, true,
+                      {{ramp, {"until"}},
+                       {sine, {"frequency", "phase"}},
+                       {pulse, {"from", "until"}},
+                       {logistic, {"rate", "centre", "until"}},
+                       {table, {"points"}}});
   if (f.kind == ramp) t.require("until", f.until, {.above = 0});
   if (f.kind == sine) {
     t.require("frequency", f.frequency, {.above = 0});

@@ -6,9 +6,11 @@
 #include <fstream>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <set>
 
 #include "io/msh_sections.hpp"
+#include "io/run_gmsh.hpp"
 
 namespace nanson {
 namespace {
@@ -21,9 +23,10 @@ std::string path_problem(const std::filesystem::path& path) {
   const auto kind = std::filesystem::status(path, ignored).type();
   if (kind == std::filesystem::file_type::not_found) return "there is no such file";
   if (kind != std::filesystem::file_type::regular) return "this is not a file";
-  if (path.extension() == ".geo" || path.extension() == ".step" || path.extension() == ".stp")
+  if (path.extension() == ".step" || path.extension() == ".stp")
     return fmt::format("mesh it first: gmsh -3 {} -o {}", path.string(), std::filesystem::path(path).replace_extension(".msh").string());
-  if (path.extension() != ".msh") return fmt::format("unknown file ending \"{}\": meshes are Gmsh .msh files", path.extension().string());
+  if (path.extension() != ".msh" && path.extension() != ".geo")
+    return fmt::format("unknown file ending \"{}\": meshes are Gmsh .msh or .geo files", path.extension().string());
   return {};
 }
 
@@ -118,6 +121,28 @@ Bytes read_bytes(const std::filesystem::path& path) {
   return bytes;
 }
 
+/// The .msh file to read: the given one, or what gmsh makes of a .geo file, which goes when this goes.
+struct MshFile {
+  std::optional<ScratchFolder> made;
+  std::filesystem::path path;
+  std::vector<std::string> problems;
+
+  explicit MshFile(const std::filesystem::path& given) : path(given) {
+    if (const auto problem = path_problem(given); !problem.empty()) problems.push_back(problem);
+    if (!problems.empty() || given.extension() != ".geo") return;
+    path = made.emplace().path() / "mesh.msh";
+    problems = run_gmsh(given, path);
+  }
+};
+
+/// Errors start with `name`.
+RawMesh read_file(const std::filesystem::path& msh, const std::string& name, std::vector<std::string>& errors) {
+  const Bytes bytes = read_bytes(msh);
+  if (bytes.complete) return read_msh({bytes.data.get(), bytes.size}, name, errors);
+  errors.push_back(name + ": cannot be read");
+  return {};
+}
+
 }  // namespace
 
 RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>& errors) {
@@ -134,10 +159,9 @@ RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<st
 }
 
 RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& errors) {
-  if (const auto problem = path_problem(path); !problem.empty()) return errors.push_back(path.string() + ": " + problem), RawMesh{};
-  const Bytes bytes = read_bytes(path);
-  if (!bytes.complete) return errors.push_back(path.string() + ": cannot be read"), RawMesh{};
-  return read_msh({bytes.data.get(), bytes.size}, path.string(), errors);
+  const MshFile file(path);
+  for (const auto& problem : file.problems) errors.push_back(path.string() + ": " + problem);
+  return file.problems.empty() ? read_file(file.path, path.string(), errors) : RawMesh{};
 }
 
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
@@ -153,16 +177,14 @@ Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
     for (const auto& problem : problems) errors.push_back("mesh.box: " + problem);
     return mesh;
   }
-  const std::filesystem::path path = spec.file.name;
-  if (const auto problem = path_problem(path); !problem.empty()) {
-    errors.push_back(fmt::format("{}: mesh.file = \"{}\": {}", spec.file.where, spec.file.name, problem));
-    return mesh;
-  }
+  const MshFile file(spec.file.name);
+  for (const auto& problem : file.problems) errors.push_back(fmt::format("{}: mesh.file = \"{}\": {}", spec.file.where, spec.file.name, problem));
+  if (!file.problems.empty()) return mesh;
   const std::size_t before = errors.size();
-  RawMesh raw = read_mesh(path, errors);
+  RawMesh raw = read_file(file.path, spec.file.name, errors);
   if (errors.size() != before) return mesh;
   mesh = finish_mesh(std::move(raw), problems);
-  for (const auto& problem : problems) errors.push_back(path.string() + ": " + problem);
+  for (const auto& problem : problems) errors.push_back(spec.file.name + ": " + problem);
   return mesh;
 }
 

@@ -1,4 +1,4 @@
-// Meshes from where the scene says: the built-in box or a file.
+// Meshes from where the scene says: the built-in box, a .msh file, or a .geo file that the gmsh program meshes.
 #pragma once
 #include <filesystem>
 #include <string>
@@ -11,7 +11,7 @@ namespace nanson {
 
 /// Reads a Gmsh .msh file (4.1 or 2.2, text or binary; first-order tets and triangles). Physical volumes become regions, physical
 /// surfaces patches; tets of no physical volume are in region "unnamed". Nodes keep the order of the file, without construction points.
-/// Every error starts with the path, in text files with the line too.
+/// A .geo file is meshed first, in a folder that is removed. Every error starts with the path, in .msh text files with the line too.
 RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& errors);
 
 /// The same from bytes in memory; errors start with `name`.

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <optional>
 
 #include "io/scene_sections.hpp"
@@ -21,10 +20,12 @@ std::optional<std::string> read_text(const fs::path& file, std::string& why) {
   if (!fs::exists(status)) why = "no such file";
   else if (!fs::is_regular_file(status)) why = "is not a file";
   if (!why.empty()) return std::nullopt;
+  const std::uintmax_t size = fs::file_size(file, error);
+  std::string text(error ? 0 : size, '\0');
   std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) why = "cannot be read";
-  return why.empty() ? std::optional(std::move(text)) : std::nullopt;
+  if (in.read(text.data(), static_cast<std::streamsize>(text.size())) && !error) return text;
+  why = "cannot be read";
+  return std::nullopt;
 }
 
 std::optional<toml::table> parse_text(const std::string& text, Diagnostics& d) {

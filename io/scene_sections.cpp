@@ -94,6 +94,7 @@ void read_physics(Table& t, PhysicsSpec& p) {
   t.read("boundary_flux", p.boundary_flux);
   t.read("upwind_metric", p.upwind_metric);        // both words also with linear_elastic: there H = I and they agree
   t.read("entropy_fix", p.entropy_fix);
+  t.read("keep_angular_momentum", p.keep_angular_momentum);
   const bool corrected = t.sound("flux_correction") && p.flux_correction != FluxCorrection::none;
   if (corrected && t.sound("reconstruction") && p.reconstruction == Reconstruction::constant)
     t.fail("flux_correction", "needs reconstruction = \"linear\" or \"limited\": the correction is made of its gradients");
@@ -117,19 +118,23 @@ void read_projection(Table& t, ProjectionSpec& p) {
 
 void read_initial(Table& t, InitialSpec& s) {
   using enum InitialField;
-  const bool known = read_kind<InitialField>(t, "field", s.field, false,
-                                             {{velocity, {"v"}},
-                                              {rotation, {"omega", "centre"}},
-                                              {twist, {"omega", "height"}},
-                                              {plate_mode, {"amplitude", "omega", "B"}},
-                                              {standing_wave, {"amplitude", "J"}},
-                                              {plane_wave, {"amplitude", "length", "direction", "J"}}});
-  if (!known) return;
+  read_kind<InitialField>(t, "field", s.field, false,
+                          {{velocity, {"v"}},
+                           {rotation, {"omega", "centre"}},
+                           {twist, {"omega", "height"}},
+                           {plate_mode, {"amplitude", "omega", "B"}},
+                           {standing_wave, {"amplitude", "J"}},
+                           {plane_wave, {"amplitude", "length", "direction", "J"}},
+                           {punch, {"v0", "height"}}});
   if (s.field == velocity) t.require("v", s.v);
   if (s.field == rotation) read_rotation(t, s);
   if (s.field == twist) {
     t.require("omega", s.twist_omega);
     if (t.require("height", s.height) && s.height == 0) t.fail("height", "must not be zero");
+  }
+  if (s.field == punch) {
+    t.require("v0", s.v0);
+    t.require("height", s.height, {.above = 0});
   }
   if (s.field == plate_mode) {
     t.require("amplitude", s.amplitude);
@@ -188,6 +193,7 @@ void check_projection(const Scene& s, At at) {
   refuse(p.flux_correction != FluxCorrection::none, "physics", "flux_correction", "is not built with formulation = \"pFp\", allowed: none");
   refuse(p.boundary_flux != BoundaryFlux::adjoint, "physics", "boundary_flux", "formulation = \"pFp\" needs \"adjoint\": the paper's makes the pressure's operator unsymmetric");
   refuse(p.entropy_fix != EntropyFix::none, "physics", "entropy_fix", "is not built with formulation = \"pFp\", allowed: none");
+  refuse(p.keep_angular_momentum, "physics", "keep_angular_momentum", "is not built with formulation = \"pFp\", allowed: false");
   refuse(s.time.integrator != Integrator::tvd_rk2, "time", "integrator", "is not built with formulation = \"pFp\", allowed: tvd_rk2");
   refuse(s.time.step == StepRule::paper, "time", "step", "is not built with formulation = \"pFp\", allowed: dual | edge");
 }
@@ -213,6 +219,8 @@ void check_together(Table& root, const Scene& s) {
     });
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
     at("monitor", "energy", "audits the upwind stabilisation only, not jst");
+  if (sound("physics.keep_angular_momentum") && s.physics.keep_angular_momentum && sound("time.integrator") && s.time.integrator != Integrator::tvd_rk2)
+    at("physics", "keep_angular_momentum", "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly");
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
   if (wave && sound("material.law") && s.material.law != Law::linear_elastic)
     at("initial", "field", "needs material.law = \"linear_elastic\": its exact solution is linear");

@@ -29,7 +29,8 @@ struct KindKeys {
   std::vector<std::string_view> keys;
 };
 
-/// Reads the kind and refuses keys that belong to other kinds only. False when the kind is wrong or missing: then none of its keys can be read.
+/// Reads the kind and refuses keys that belong to other kinds only. False when the kind is wrong or missing: then nothing is said about any of
+/// these keys, and `kind` keeps its default, which has none.
 template <class Kind>
 bool read_kind(Table& t, std::string_view key, Kind& kind, bool required, const std::vector<KindKeys<Kind>>& table) {
   std::vector<std::string_view> all, own;

@@ -46,8 +46,8 @@ toml::array list(const std::vector<double>& values) {
 
 toml::table energy_table(const EnergySummary& e) {
   return toml::table{{"initial", number(e.initial)}, {"kinetic", number(e.kinetic)}, {"strain", number(e.strain)},
-                     {"external_work", number(e.external_work)}, {"dissipated", number(e.dissipated)}, {"closure", number(e.closure)},
-                     {"lost_at_start", number(e.lost_at_start)}};
+                     {"external_work", number(e.external_work)}, {"dissipated", number(e.dissipated)},
+                     {"angular_momentum_work", number(e.angular_momentum_work)}, {"closure", number(e.closure)}, {"lost_at_start", number(e.lost_at_start)}};
 }
 
 toml::table probes_table(const std::map<std::string, std::map<std::string, std::vector<double>>>& probes) {
@@ -91,7 +91,8 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
       {"dt_min", number(s.dt_min)}, {"dt_max", number(s.dt_max)}, {"threads", s.threads}, {"wall_s", number(s.wall_s)}, {"cpu_s", number(s.cpu_s)},
       {"setup_s", number(s.setup_s)}, {"ns_per_node_step", number(s.ns_per_node_step)}, {"bytes_per_node", number(s.bytes_per_node)},
       {"fields_left_out", list(s.fields_left_out)}, {"state_hash", s.state_hash}, {"energy", energy_table(s.energy)}, {"mass", number(s.mass)},
-      {"volume", number(s.volume)}, {"angular_momentum_drift", number(s.angular_momentum_drift)},
+      {"volume", number(s.volume)}, {"keep_angular_momentum", s.keep_angular_momentum},
+      {"angular_momentum_drift", number(s.angular_momentum_drift)},
       {"linear_momentum_drift", number(s.linear_momentum_drift)}, {"min_detF", number(s.min_detF)}, {"max_detF", number(s.max_detF)},
       {"probes", probes_table(s.probes)}, {"sweeps", sweeps_table(s.sweeps)}, {"provenance", provenance_table(from)}};
   table.insert("checkerboard", number(s.checkerboard));

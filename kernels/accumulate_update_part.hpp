@@ -48,8 +48,7 @@ NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficie
     const double mass = k.material.rho / rows.X[row::X * h.node + 3];
     const double* v = rows.W + row::W * h.node;
     double* booked = reactions + reaction_row * i;
-    if (k.first_stage)
-      for (int m = 0; m < reaction_row; ++m) booked[m] = 0;
+    for (int m = 0; m < reaction_row; ++m) booked[m] = 0;
     for (int m = 0; m < h.count; ++m) {
       double wanted = 0;
       for (int s = 0; s < 3; ++s)
@@ -57,8 +56,8 @@ NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficie
       const double* d = h.d[m];
       const double reaction = mass * wanted - (f[0] * d[0] + f[1] * d[1] + f[2] * d[2]);
       for (int j = 0; j < 3; ++j) f[j] += reaction * d[j];
-      booked[m] += k.reaction_weight * reaction;
-      booked[3] += k.reaction_weight * reaction * (v[0] * d[0] + v[1] * d[1] + v[2] * d[2]);
+      booked[m] = reaction;
+      booked[3] += reaction * (v[0] * d[0] + v[1] * d[1] + v[2] * d[2]);
     }
   }
 }

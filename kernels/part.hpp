@@ -82,7 +82,7 @@ struct Constraint {
   double weight[3][3] = {};         // ... with these weights (0: none)
 };
 
-inline constexpr int reaction_row = 4;  // per constraint: mean force of the support along each direction [N], its power [W]
+inline constexpr int reaction_row = 4;  // per constraint: force of the support along each direction [N], its power [W]
 
 /// Constants of a scene and of a stage.
 struct Coefficients {
@@ -94,8 +94,6 @@ struct Coefficients {
   bool sweeps_J = false;            // W is {v, J} in place of {v, Sigma_J} (jst)
   double g[3] = {};                 // [m/s^2] body force
   double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
-  double reaction_weight = 0;       // share of this stage in the step's mean reaction; the first stage overwrites
-  bool first_stage = true;
   const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step
 };
 

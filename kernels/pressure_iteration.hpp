@@ -62,9 +62,9 @@ inline Three pressure_operator_part(const Part& part, const EdgeArrays& edges, c
   return sum;
 }
 
-/// v += alpha V, p += alpha d, R -= alpha (K d - mean Omega); the supports take alpha times what they removed, `share` of it in the step's mean reaction.
+/// v += alpha V, p += alpha d, R -= alpha (K d - mean Omega); the supports take alpha times what they removed.
 /// Returns the sums of R^2/Omega, R z and Omega z, z = R/diag.
-inline Three pressure_step_part(const Part& part, const ProjectionRows& rows, double alpha, double mean, double share, double* reactions) {
+inline Three pressure_step_part(const Part& part, const ProjectionRows& rows, double alpha, double mean, double* reactions) {
   Three sum;
   for (int n = part.node_begin; n < part.node_end; ++n) {
     double* U = rows.U + row::U * n;
@@ -79,7 +79,7 @@ inline Three pressure_step_part(const Part& part, const ProjectionRows& rows, do
     const Constraint& h = rows.constraints[i];
     const double* v = rows.W + row::W * h.node;
     for (int m = 0; m < h.count; ++m) {
-      const double reaction = -share * alpha * rows.removed[3 * i + m];
+      const double reaction = -alpha * rows.removed[3 * i + m];
       reactions[reaction_row * i + m] += reaction;
       reactions[reaction_row * i + 3] += reaction * (v[0] * h.d[m][0] + v[1] * h.d[m][1] + v[2] * h.d[m][2]);
     }

@@ -29,7 +29,9 @@ struct Built {
   using Law_ = Material<law, volumetric, isochoric, formulation>;
 
   [[gnu::noinline]] static Stress<double> stress(const MaterialState& s, const MaterialConstants& m) { return Law_::stress(s.F, s.H, s.J, m); }
-  [[gnu::noinline]] static Stress<Vec8> stress(const Tensor<Vec8>& F, const Tensor<Vec8>& H, Vec8 J, const MaterialConstants& m) { return Law_::stress(F, H, J, m); }
+  [[gnu::noinline]] static Stress<Vec8> stress(const Tensor<Vec8>& F, const Tensor<Vec8>& H, Vec8 J, const MaterialConstants& m) {
+    return Law_::stress(F, H, J, m);
+  }
   [[gnu::noinline]] static double energy(const MaterialState& s, const MaterialConstants& m) { return Law_::energy(s.F, s.H, s.J, m); }
   static std::string name() {
     return std::string(word(law)) + "_" + std::string(word(volumetric)) + "_" + std::string(word(isochoric)) + "_" + std::string(word(formulation));

@@ -131,7 +131,8 @@ TEST(BoundaryConflict, AnObliqueRollerBeforeAClampIsCompletedByIt) {
 }
 
 TEST(BoundaryLoads, EveryLoadedFaceHasOneRowAndCarriesAThirdOfItsTractionOnEachCorner) {
-  Scene scene = scene_of({{{"zmax"}, BoundaryKind::traction}, {{"zmax", "xmin"}, BoundaryKind::pressure}, {{"zmin"}, BoundaryKind::fixed}, {{"ymin"}, BoundaryKind::free}});
+  Scene scene = scene_of({{{"zmax"}, BoundaryKind::traction}, {{"zmax", "xmin"}, BoundaryKind::pressure},
+                          {{"zmin"}, BoundaryKind::fixed}, {{"ymin"}, BoundaryKind::free}});
   scene.boundary[0].traction = {1, 2, -3}, scene.boundary[1].pressure = 7;
   const Supported s(box({2, 3, 2}), scene);
   const std::size_t top = 2 * 2 * 3, side = 2 * 3 * 2;

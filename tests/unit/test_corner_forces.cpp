@@ -13,8 +13,8 @@ namespace {
 /// One part of eight nodes without edges; node 0 owns two corners, (0; 1, 2) loaded and (0; 2, 3) free.
 struct Corners {
   static constexpr int rows = 8;
-  Aligned<double> X = Aligned<double>(row::X * rows), W = Aligned<double>(row::W * rows), PH = Aligned<double>(row::PH * rows), Q = Aligned<double>(row::Q * rows);
-  Aligned<double> G = Aligned<double>(row::G * rows), loads = Aligned<double>(4);
+  Aligned<double> X = Aligned<double>(row::X * rows), W = Aligned<double>(row::W * rows), PH = Aligned<double>(row::PH * rows);
+  Aligned<double> Q = Aligned<double>(row::Q * rows), G = Aligned<double>(row::G * rows), loads = Aligned<double>(4);
   std::int32_t none[64] = {}, begin[rows + 1] = {0, 2, 2, 2, 2, 2, 2, 2, 2}, b[2] = {1, 2}, c[2] = {2, 3}, load[2] = {0, -1};
   double C[3][2], zero[64] = {};
   Coefficients k;

@@ -5,6 +5,7 @@
 
 #include "engine/order.hpp"
 #include "engine/registry.hpp"
+#include "engine/state.hpp"
 #include "tests/unit/meshes.hpp"
 #include "tests/unit/random_tensor.hpp"
 
@@ -18,6 +19,7 @@ struct Gradients : ::testing::TestWithParam<Split> {
   Dual dual = make_dual(mesh);
   Order order = make_order(dual, static_cast<int>(mesh.X.size()));
   Aligned<double> X = zeros(row::X), W = zeros(row::W), PH = zeros(row::PH), G = zeros(row::G), Q = zeros(row::Q), GP = zeros(row::GP);
+  Aligned<double> L = zeros(row::L), lambda;
   Random random{1};
 
   Gradients() {
@@ -32,9 +34,12 @@ struct Gradients : ::testing::TestWithParam<Split> {
   void run(PressureJump jump, FluxCorrection correction) {
     PhysicsSpec physics;
     physics.pressure_jump = jump, physics.flux_correction = correction;
+    run(physics);
+  }
+  void run(const PhysicsSpec& physics) {
     const PartFunctions f = find_part_functions(physics, MaterialSpec{});
     Rows r{};
-    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.Q = Q.data(), r.GP = GP.data();
+    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.Q = Q.data(), r.GP = GP.data(), r.L = L.data(), r.lambda = lambda.data();
     for (const Part& part : order.parts) f.gradient(part, order.edges(), order.corners(), order.lists(), r, Coefficients{});
   }
 };
@@ -49,7 +54,10 @@ TEST_P(Gradients, OfLinearFieldsAreExactAtEveryNode) {
     for (double& x : s) x = uniform(random, -1, 1);
   for (double& x : value) x = uniform(random, -1, 1);
   for (int n = 0; n < order.nodes; ++n)
-    for (int i = 0; i < 4; ++i) W[row::W * order.row_of[n] + i] = value[i] + slope[0][i] * mesh.X[n][0] + slope[1][i] * mesh.X[n][1] + slope[2][i] * mesh.X[n][2];
+    for (int i = 0; i < 4; ++i) {
+      W[row::W * order.row_of[n] + i] = value[i];
+      for (int I = 0; I < 3; ++I) W[row::W * order.row_of[n] + i] += slope[I][i] * mesh.X[n][I];
+    }
   run(PressureJump::scalar, FluxCorrection::none);
   for (int n = 0; n < order.nodes; ++n)
     for (int I = 0; I < 3; ++I)
@@ -126,4 +134,44 @@ TEST_P(Gradients, CorrectedStressIsItsFormula) {
   for (const DualEdge& e : dual.edges) add(e.a, e.b, 1, e.C), add(e.b, e.a, -1, e.C);
   for (int n = 0; n < order.nodes; ++n)
     for (int m = 0; m < 9; ++m) EXPECT_NEAR(Q[row::Q * order.row_of[n] + 4 * (m / 3) + m % 3], expected[n](m % 3, m / 3), 1e-13) << "node " << n;
+}
+
+TEST_P(Gradients, LimitedReconstructionsStayBetweenTheNeighboursAtEveryMidpointAndTouchThem) {
+  for (int n = 0; n < order.nodes; ++n)
+    for (int i = 0; i < 4; ++i) W[row::W * order.row_of[n] + i] = uniform(random, -1, 1);
+  PhysicsSpec physics;
+  physics.reconstruction = Reconstruction::limited;
+  run(physics);
+  std::vector<std::vector<int>> neighbours(mesh.X.size());
+  for (const DualEdge& e : dual.edges) neighbours[e.a].push_back(e.b), neighbours[e.b].push_back(e.a);
+  for (int n = 0; n < order.nodes; ++n)
+    for (int i = 0; i < 4; ++i) {
+      const int r = order.row_of[n];
+      const double W_n = W[row::W * r + i], phi = L[row::L * r + i];
+      double least = W_n, most = W_n, closest = 1e300;
+      for (const int b : neighbours[n]) least = std::min(least, W[row::W * order.row_of[b] + i]), most = std::max(most, W[row::W * order.row_of[b] + i]);
+      for (const int b : neighbours[n]) {
+        double value = W_n;
+        for (int I = 0; I < 3; ++I) value += 0.5 * phi * G[row::G * r + 4 * I + i] * (mesh.X[b][I] - mesh.X[n][I]);
+        closest = std::min({closest, value - least, most - value});
+      }
+      EXPECT_GE(phi, 0);
+      EXPECT_LE(phi, 1);
+      EXPECT_GE(closest, -1e-14);
+      EXPECT_TRUE(phi == 1 || closest < 1e-14) << "limited more than needed at node " << n;
+    }
+}
+
+TEST_P(Gradients, PseudoLaplacianOfALinearFieldIsZeroAtEveryNode) {
+  Scene scene;
+  scene.physics.stabilisation = Stabilisation::jst;
+  lambda = make_state(scene, mesh, dual, order, Boundary{}).lambda;
+  for (int n = 0; n < order.nodes; ++n)
+    for (int i = 0; i < 4; ++i) W[row::W * order.row_of[n] + i] = i + (i + 1) * mesh.X[n][0] - i * mesh.X[n][1] + 0.5 * mesh.X[n][2];
+  for (double& l : L) l = 7;
+  run(scene.physics);
+  for (const double l : L) EXPECT_NEAR(l, 0, 1e-12);
+  W[row::W * order.row_of[500]] += 1;
+  run(scene.physics);
+  EXPECT_LT(L[row::L * order.row_of[500]], -1);  // minus the sum of the weights
 }

@@ -318,7 +318,7 @@ TEST(ReadMesh, FilesThatCannotBeMeshesAreRefused) {
   read_mesh(folder.path() / "none.msh", errors);
   read_mesh(folder.path(), errors);
   read_mesh(folder.write("mesh.vtk", "x"), errors);
-  read_mesh(folder.write("mesh.geo", "x"), errors);
+  read_mesh(folder.write("mesh.step", "x"), errors);
   ASSERT_EQ(errors.size(), 4u);
   EXPECT_EQ(errors[0], (folder.path() / "none.msh").string() + ": there is no such file");
   EXPECT_NE(errors[1].find("not a file"), std::string::npos);
@@ -364,7 +364,7 @@ TEST(LoadMesh, ReadsAndChecksTheFile) {
 }
 
 TEST(LoadMesh, ReadsTheMeshesThatComeWithTheProgram) {
-  const auto meshes = std::filesystem::path(__FILE__).parent_path() / "../../configs/meshes";
+  const auto meshes = std::filesystem::path(NANSON_SOURCE_DIR) / "configs/meshes";
   const auto names = [&](const std::string& file) {
     MeshSpec spec;
     spec.source = MeshSource::file;
@@ -376,6 +376,9 @@ TEST(LoadMesh, ReadsTheMeshesThatComeWithTheProgram) {
   };
   EXPECT_EQ(names("cantilever_cylinder.msh"), (std::vector<std::string>{"clamped", "tip", "side"}));
   EXPECT_EQ(names("plate_with_hole.msh"), (std::vector<std::string>{"left", "right", "hole"}));
+  EXPECT_EQ(names("satellite.msh"), std::vector<std::string>{});
+  EXPECT_EQ(names("punch.msh"), (std::vector<std::string>{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax", "holes"}));
+  EXPECT_EQ(names("stent.msh"), (std::vector<std::string>{"x0", "y0", "z0", "end"}));
 }
 
 TEST(LoadMesh, ErrorsStartWithTheFileAndTheLineThatIsWrong) {

@@ -102,6 +102,10 @@ TEST(Scene, WhatIsNotWrittenHasTheDefaultOfThePlainStructs) {
   EXPECT_FALSE(s.monitor.energy);
 }
 
+TEST(Scene, SectionsWithoutAKeyKeepItsDefault) {
+  EXPECT_EQ(read_text(small_scene + "[output]\nevery = 1\n").scene.output.fields, (std::vector<std::string>{"displacement", "velocity", "pressure"}));
+}
+
 TEST(Scene, CflDefaultFollowsTheIntegrator) {
   EXPECT_EQ(read_text(small_scene).scene.time.cfl, 0.3);
   EXPECT_EQ(read_text(small_scene + "integrator = \"tvd_rk2\"\n").scene.time.cfl, 0.3);
@@ -121,6 +125,8 @@ TEST(Scene, RequiredKeysAreMissedAtTheirTable) {
       {"end = 1", "", "scene.toml:9:1: time.end: is missing"},
       {"[time]\nend = 1\n", "", "scene.toml:1:1: time: is missing"},
       {"[mesh]\nbox = { size = [1, 2, 3] }\n", "", "scene.toml:1:1: mesh: is missing"},
+      {small_scene.substr(small_scene.find("[material]"), small_scene.find("[time]") - small_scene.find("[material]")), "",
+       "scene.toml:1:1: material: is missing"},
   });
   expect_each_refused(column_scene, {
       {"face = \"zmin\"", "", "scene.toml:30:1: boundary.0.face: is missing"},
@@ -177,10 +183,7 @@ TEST(Scene, FeaturesThatAreNotBuiltAreUnknown) {
   });
   expect_each_refused(column_scene, {
       {"upwind_metric   = \"paper\"", "description = \"total\"", "scene.toml:23:1: physics.description = \"total\": unknown key"},
-      {"upwind_metric   = \"paper\"", "stabilisation = \"upwind\"", "scene.toml:23:1: physics.stabilisation = \"upwind\": unknown key"},
-      {"upwind_metric   = \"paper\"", "entropy_fix = \"none\"", "scene.toml:23:1: physics.entropy_fix = \"none\": unknown key"},
       {"upwind_metric   = \"paper\"", "keep_angular_momentum = false", "scene.toml:23:1: physics.keep_angular_momentum = false: unknown key"},
-      {"= \"linear\"", "= \"limited\"", "scene.toml:20:19: physics.reconstruction = \"limited\": unknown word, allowed: constant | linear"},
       {"\"twist\"", "\"punch\"", "scene.toml:26:10: initial.field = \"punch\": unknown word"},
       {"\"twist\"", "\"manufactured\"", "scene.toml:26:10: initial.field = \"manufactured\": unknown word"},
       {"energy           = true", "entropy          = true", "scene.toml:61:1: monitor.entropy = true: unknown key, allowed: energy"},
@@ -226,6 +229,10 @@ TEST(Scene, FileThatIsNotThereSaysSo) {
   EXPECT_EQ(read_scene(absent).errors, (std::vector<std::string>{absent + ": no such file"}));
   EXPECT_EQ(read_scene(folder.path).errors, (std::vector<std::string>{folder.path.string() + ": is not a file"}));
   EXPECT_FALSE(read_scene(absent).mesh_valid);
+  const std::vector<std::string> also = read_scene(absent, {"abc"}).errors;
+  ASSERT_EQ(also.size(), 2u) << joined(also);
+  EXPECT_EQ(also[0], absent + ": no such file");
+  EXPECT_TRUE(also[1].starts_with("--set #1: abc: "));
 }
 
 TEST(Scene, MeshIsValidAlthoughOtherSectionsAreWrong) {

@@ -85,6 +85,7 @@ TEST(SceneProjection, CombinationsThatAreNotBuiltAreRefused) {
            {"flux_correction = \"pressure\"", "19: physics.flux_correction = \"pressure\": is not built"},
            {"boundary_flux = \"paper\"", "17: physics.boundary_flux = \"paper\": formulation = \"pFp\" needs \"adjoint\""},
            {"entropy_fix = \"edge\"", "15: physics.entropy_fix = \"edge\": is not built"},
+           {"keep_angular_momentum = true", "25: physics.keep_angular_momentum = true: is not built"},
            {"stabilisation = \"jst\"", "17: physics.stabilisation = \"jst\": is not built"}})
     expect_error(with_line("[physics]", line), "scene.toml:10:" + error);
   expect_error(with_line("[time]", "integrator = \"ssp_rk3\""), "scene.toml:14:14: time.integrator = \"ssp_rk3\": is not built with formulation = \"pFp\", allowed: tvd_rk2");

@@ -114,6 +114,7 @@ TEST(Scene, MeshHasExactlyOneSource) {
   EXPECT_EQ(r.scene.mesh.file.where, (folder.path / "scene.toml").string() + ":3:8");
   expect(edited(file, "file =", "box = { size = [1, 1, 1] }\nfile ="),
       "scene.toml:4:8: mesh.file = \"bar.msh\": stands beside mesh.box, exactly one of box | file");
+  expect(edited(file, "file =", "box = { size = [1, 1, 1] }\ncells = [2, 2, 2]\nfile ="), "scene.toml:5:8: mesh.file = \"bar.msh\": stands beside mesh.box");
   expect(edited(file, "bar.msh", "rod.msh"), "scene.toml:3:8: mesh.file = \"rod.msh\": there is no file " + (folder.path / "rod.msh").string());
   expect(edited(file, "\"bar.msh\"", "\"\""), "mesh.file = \"\": there is no file");
   expect(edited(file, "file =", "cells = [1, 1, 1]\nfile ="), "scene.toml:3:9: mesh.cells = [1, 1, 1]: is not a key of file");
@@ -139,6 +140,7 @@ TEST(Scene, XiBelongsToMooneyRivlinAndLeavesZetaPositive) {
       "scene.toml:9:6: material.xi = 0.288676: must be below mu / (3 sqrt(3)) = 0.288675");
   expect_error(with_material(base + "\"mooney_rivlin\"\nxi = -0.1"), "scene.toml:9:6: material.xi = -0.1: must be at least 0");
   expect_error(with_material(base + "\"mooney_rivlin\""), "scene.toml:4:1: material.xi: is missing");
+  expect_error(with_material("density = 1\nyoungs_modulus = -3.0\npoissons_ratio = 0.0\nlaw = \"mooney_rivlin\"\nxi = 1"), "scene.toml:6:18: material.youngs_modulus");
   expect_error(with_material(base + "\"neo_hookean\"\nxi = 0"), "scene.toml:9:6: material.xi = 0: is not a key of neo_hookean");
   expect_error(with_material(base + "\"linear_elastic\"\nxi = 0"), "scene.toml:9:6: material.xi = 0: is not a key of linear_elastic");
 }
@@ -205,6 +207,9 @@ TEST(Scene, InitialFieldsReadTheirOwnKeys) {
   EXPECT_EQ(plate.amplitude, 1);
   EXPECT_EQ(plate.mode_omega, 2);
   EXPECT_EQ(plate.B, 3);
+  const InitialSpec punch = initial("field = \"punch\"\nv0 = 700\nheight = 0.5\n");
+  EXPECT_EQ(punch.v0, 700);
+  EXPECT_EQ(punch.height, 0.5);
   const InitialSpec standing = initial("field = \"standing_wave\"\namplitude = 0.5\nJ = \"det\"\n");
   EXPECT_EQ(standing.amplitude, 0.5);
   EXPECT_EQ(standing.J, InitialJ::det);
@@ -240,6 +245,15 @@ TEST(Scene, KeysOfOtherInitialFieldsAreRefused) {
   expect_error(initial("field = \"rest\"\namplitude = 1\n"), "scene.toml:13:13: initial.amplitude = 1: is not a key of rest");
 }
 
+TEST(Scene, AngularMomentumIsKeptUnderTvdRk2Only) {
+  EXPECT_TRUE(read_text(with("[physics]\nkeep_angular_momentum = true\n")).scene.physics.keep_angular_momentum);
+  EXPECT_FALSE(read_text(small_scene).scene.physics.keep_angular_momentum);
+  const std::string rk3 = edited(small_scene, "end = 1\n", "end = 1\nintegrator = \"ssp_rk3\"\n");
+  expect_valid(rk3 + "[physics]\nkeep_angular_momentum = false\n");
+  expect_error(rk3 + "[physics]\nkeep_angular_momentum = true\n",
+      "scene.toml:13:25: physics.keep_angular_momentum = true: needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built");
+}
+
 TEST(Scene, InitialFieldsRequireTheirKeys) {
   const auto missing = [](const std::string& lines, const std::string& key) {
     expect_error(with("[initial]\n" + lines), "scene.toml:11:1: initial." + key + ": is missing");
@@ -253,6 +267,8 @@ TEST(Scene, InitialFieldsRequireTheirKeys) {
   missing("field = \"plate_mode\"\namplitude = 1\nomega = 1\n", "B");
   missing("field = \"standing_wave\"\n", "amplitude");
   missing("field = \"plane_wave\"\nlength = 1\n", "amplitude");
+  missing("field = \"punch\"\nheight = 1\n", "v0");
+  missing("field = \"punch\"\nv0 = 1\n", "height");
   missing("field = \"plane_wave\"\namplitude = 1\n", "length");
 }
 

@@ -128,8 +128,12 @@ TYPED_TEST(StressPart, SoundNodesAreNotFlagged) {
 
 TYPED_TEST(StressPart, AnUnsoundNodeIsFlaggedInEveryLane) {
   std::vector<std::pair<const char*, std::function<void(double*)>>> damages = {
-      {"det F = 0", [](double* U) { U[4] = 0; }},        {"det F < 0", [](double* U) { U[4] = -1; }},  {"v inf", [](double* U) { U[0] = infinity; }},
-      {"v -inf", [](double* U) { U[1] = -infinity; }},   {"v NaN", [](double* U) { U[2] = NaN; }},     {"v too large to square", [](double* U) { U[2] = 1e200; }},
+      {"det F = 0", [](double* U) { U[4] = 0; }},
+      {"det F < 0", [](double* U) { U[4] = -1; }},
+      {"v inf", [](double* U) { U[0] = infinity; }},
+      {"v -inf", [](double* U) { U[1] = -infinity; }},
+      {"v NaN", [](double* U) { U[2] = NaN; }},
+      {"v too large to square", [](double* U) { U[2] = 1e200; }},
   };
   for (int m = 0; m < 9; ++m) damages.push_back({"F NaN", [m](double* U) { U[4 * (m / 3 + 1) + m % 3] = NaN; }});
   if (TypeParam::evolves_J) {

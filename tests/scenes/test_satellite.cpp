@@ -1,0 +1,34 @@
+// The satellite: angular momentum constant to round-off with the projection, lost without; linear momentum and energy as they should be.
+#include "tests/scenes/scene_run.hpp"
+
+namespace nanson {
+namespace {
+
+TEST(Satellite, KeepsItsAngularMomentumForTwoSeconds) {
+  for (const std::string formulation : {"pF", "pFJ"}) {
+    const std::vector<std::string> settings{"time.end=2.0", "physics.formulation=" + formulation};
+    const SceneRun kept = run_config("satellite.toml", settings);
+    EXPECT_EQ(kept.summary.status, "done");
+    EXPECT_LE(*kept.summary.angular_momentum_drift, 1e-13) << formulation;
+    EXPECT_LE(kept.summary.linear_momentum_drift, 1e-12) << formulation;
+    EXPECT_LT(*kept.summary.energy.closure, 1e-3) << formulation;
+    EXPECT_LE(kept.largest_energy, 1 + 1e-6) << formulation;
+    std::vector<std::string> plain = settings;
+    plain.push_back("physics.keep_angular_momentum=false");
+    const SceneRun lost = run_config("satellite.toml", plain);
+    EXPECT_GE(*lost.summary.angular_momentum_drift, 1e-4) << formulation;
+    EXPECT_LE(lost.summary.linear_momentum_drift, 1e-12) << formulation;
+    EXPECT_LE(lost.largest_energy, 1 + 1e-6) << formulation;
+  }
+}
+
+TEST(Satellite, ArmsReachTheFiguresMeasuredBefore) {
+  const SceneRun run = run_config("satellite.toml", {"time.end=2.0"});
+  EXPECT_NEAR(run.summary.mass, 1.0134e5, 0.01e5);  // [kg] 1000 x volume of the faceted body
+  const auto& u = run.summary.probes.at("arm").at("displacement");
+  EXPECT_NEAR(u[0], -5.735, 0.02);
+  EXPECT_NEAR(u[1], 7.269, 0.02);
+}
+
+}  // namespace
+}  // namespace nanson
