@@ -120,7 +120,9 @@ void add(const std::string& name, const PhysicsSpec& p, const MaterialSpec& m, S
 }
 
 MaterialSpec material_of(Law law, Volumetric volumetric = Volumetric::quadratic, Isochoric isochoric = Isochoric::F) {
-  return {law, 1100, 17e6, 0.495, 2e5, volumetric, isochoric};
+  MaterialSpec m;
+  m.law = law, m.density = 1100, m.youngs_modulus = 17e6, m.poissons_ratio = 0.495, m.xi = 2e5, m.volumetric = volumetric, m.isochoric = isochoric;
+  return m;
 }
 
 PhysicsSpec sweeps(Formulation formulation, PressureJump jump, Reconstruction reconstruction, FluxCorrection correction, UpwindMetric metric = UpwindMetric::deformed) {

@@ -336,6 +336,7 @@ void material_of_formulation(NaiveLoop& n, const std::vector<NaiveNode>& nodes, 
     case Formulation::pF: return material_pass<law, volumetric, Isochoric::F, Formulation::pF>(n, nodes, H);
     case Formulation::pFJ: return material_pass<law, volumetric, isochoric, Formulation::pFJ>(n, nodes, H);
     case Formulation::pFHJ: return material_pass<law, volumetric, isochoric, Formulation::pFHJ>(n, nodes, H);
+    case Formulation::pFp: throw std::invalid_argument("the plain loop has no projection");
   }
 }
 

@@ -51,7 +51,7 @@ Projection make_projection(const Scene& scene, const Order& order, const Boundar
   return p;
 }
 
-std::size_t bytes(const Projection& p) {
+std::size_t projection_bytes(const Projection& p) {
   std::size_t doubles = p.E.size() + p.B.size() + p.H.size() + p.V.size() + p.removed.size();
   for (const auto* v : {&p.volume[0], &p.volume[1], &p.taken[0], &p.taken[1], &p.fixed, &p.lag, &p.inverse_diagonal, &p.weight_sum, &p.R, &p.d, &p.Kd}) doubles += v->size();
   return 8 * doubles + 4 * p.held.size();

@@ -30,6 +30,6 @@ struct Projection {
 /// Empty unless the formulation is pFp.
 Projection make_projection(const Scene& scene, const Order& order, const Boundary& boundary, const Aligned<double>& X, const MaterialConstants& material);
 
-std::size_t bytes(const Projection& p);
+std::size_t projection_bytes(const Projection& p);
 
 }  // namespace nanson

@@ -122,7 +122,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   return s;
 }
 
-double bytes_per_node(const Simulation& s) { return bytes_per_node(s.state, s.order) + static_cast<double>(bytes(s.projection)) / s.order.nodes; }
+double bytes_per_node(const Simulation& s) { return bytes_per_node(s.state, s.order) + static_cast<double>(projection_bytes(s.projection)) / s.order.nodes; }
 
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
   std::vector<std::pair<int, double>> steps;
