@@ -70,7 +70,7 @@ TEST(SceneProjection, OneHalfAndTheSectionNeedTheFormulation) {
   const std::string other = edited(rubber, "\"pFp\"", "\"pFJ\"");
   const SceneResult r = read_text(other);
   EXPECT_EQ(r.errors, (std::vector<std::string>{"scene.toml:8:18: material.poissons_ratio = 0.5: must be below 0.5 unless physics.formulation = \"pFp\"",
-                                               "scene.toml:12:13: projection.tolerance = 1e-04: is a key of physics.formulation = \"pFp\" only"}))
+                                               "scene.toml:12:13: projection.tolerance = 0.0001: is a key of physics.formulation = \"pFp\" only"}))
       << joined(r.errors);
 }
 
