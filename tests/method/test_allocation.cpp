@@ -14,17 +14,24 @@ std::atomic<long> allocations{0};
 
 void* counted(std::size_t size, std::size_t alignment) {
   if (counting) ++allocations;
-  void* p = std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));
+  return std::aligned_alloc(alignment, (size + alignment - 1) / alignment * alignment + (size == 0 ? alignment : 0));
+}
+
+void* counted_or_throw(std::size_t size, std::size_t alignment) {
+  void* p = counted(size, alignment);
   if (!p) throw std::bad_alloc();
   return p;
 }
 
 }  // namespace
 
-void* operator new(std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new[](std::size_t size) { return counted(size, alignof(std::max_align_t)); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
-void* operator new[](std::size_t size, std::align_val_t alignment) { return counted(size, static_cast<std::size_t>(alignment)); }
+constexpr std::size_t plain = alignof(std::max_align_t);
+void* operator new(std::size_t size) { return counted_or_throw(size, plain); }
+void* operator new[](std::size_t size) { return counted_or_throw(size, plain); }
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size, plain); }
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size, plain); }
+void* operator new(std::size_t size, std::align_val_t alignment) { return counted_or_throw(size, static_cast<std::size_t>(alignment)); }
+void* operator new[](std::size_t size, std::align_val_t alignment) { return counted_or_throw(size, static_cast<std::size_t>(alignment)); }
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
@@ -47,7 +54,7 @@ long allocations_of_three_steps(Simulation& s) {
 
 TEST(Allocation, TheCounterCounts) {
   allocations = 0, counting = true;
-  { std::vector<double> plain(10); Aligned<double> aligned(10); }
+  { std::vector<double> usual(10); Aligned<double> aligned(10); }
   counting = false;
   EXPECT_EQ(allocations, 2);
 }
