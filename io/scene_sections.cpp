@@ -189,7 +189,7 @@ void check_projection(const Scene& s, At at) {
   const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view why) {
     if (wrong) at(section, key, why);
   };
-  refuse(s.material.law == Law::linear_elastic, "material", "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
+  refuse(s.material.law == Law::linear_elastic || s.material.law == Law::hencky_j2, "material", "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
   refuse(s.material.volumetric != Volumetric::quadratic, "material", "volumetric", "formulation = \"pFp\" has the pressure for unknown, its energy p^2/(2 kappa) is \"quadratic\"");
   refuse(s.material.isochoric == Isochoric::J, "material", "isochoric", "needs an evolved J, which formulation = \"pFp\" does not carry");
   refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "is not built with formulation = \"pFp\", allowed: upwind");
