@@ -76,6 +76,7 @@ TEST(SceneProjection, OneHalfAndTheSectionNeedTheFormulation) {
 
 TEST(SceneProjection, CombinationsThatAreNotBuiltAreRefused) {
   expect_error(edited(rubber, "neo_hookean", "linear_elastic"), "scene.toml:5:7: material.law = \"linear_elastic\": is not built with formulation = \"pFp\"");
+  expect_error(edited(rubber, "\"neo_hookean\"", "\"hencky_j2\"\nhardening = [[0, 1], [1, 2]]"), "scene.toml:5:7: material.law = \"hencky_j2\": is not built with formulation = \"pFp\"");
   expect_error(with_line("[material]", "volumetric = \"barrier\""), "scene.toml:5:14: material.volumetric = \"barrier\": formulation = \"pFp\" has the pressure");
   expect_error(with_line("[material]", "isochoric = \"J\""), "scene.toml:5:13: material.isochoric = \"J\": needs an evolved J");
   for (const auto& [line, error] : std::vector<std::pair<std::string, std::string>>{
