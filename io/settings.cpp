@@ -42,10 +42,9 @@ std::optional<toml::table> parse_value(std::string_view value, long number, std:
   if (!is_bare_word(value)) return std::nullopt;
   try {
     return toml::parse(fmt::format("value = \"{}\"", value), source_of_setting(number));
-  } catch (const toml::parse_error& e) {
-    why = e.description();
+  } catch (const toml::parse_error&) {
+    return std::nullopt;                           // not UTF-8, as `why` says
   }
-  return std::nullopt;
 }
 
 /// Names under which a list entry is known: the faces it is for.

@@ -61,6 +61,9 @@ TEST(Words, DistanceCountsInsertionsDeletionsReplacementsAndSwaps) {
   EXPECT_EQ(edit_distance("density", "densty"), 1u);
   EXPECT_EQ(edit_distance("density", "densityy"), 1u);
   EXPECT_EQ(edit_distance("kitten", "sitting"), 3u);
+  EXPECT_EQ(edit_distance("ab", "cd"), 2u);
+  EXPECT_EQ(edit_distance("ab", "ca"), 2u);
+  EXPECT_EQ(edit_distance("ab", "bc"), 2u);
 }
 
 TEST(Words, SuggestionDiffersByAThirdOfTheLettersAtMost) {

@@ -114,7 +114,8 @@ TEST(Scene, MeshHasExactlyOneSource) {
   EXPECT_EQ(r.scene.mesh.file.where, (folder.path / "scene.toml").string() + ":3:8");
   expect(edited(file, "file =", "box = { size = [1, 1, 1] }\nfile ="),
       "scene.toml:4:8: mesh.file = \"bar.msh\": stands beside mesh.box, exactly one of box | cylinder | file");
-  expect(edited(file, "file =", "box = { size = [1, 1, 1] }\ncells = [2, 2, 2]\nfile ="), "scene.toml:5:8: mesh.file = \"bar.msh\": stands beside mesh.box");
+  expect(edited(file, "file =", "box = { size = [1, 1, 1] }\ncells = [2, 2, 2]\nfile ="),
+      "scene.toml:5:8: mesh.file = \"bar.msh\": stands beside mesh.box");
   expect(edited(file, "bar.msh", "rod.msh"), "scene.toml:3:8: mesh.file = \"rod.msh\": there is no file " + (folder.path / "rod.msh").string());
   expect(edited(file, "\"bar.msh\"", "\"\""), "mesh.file = \"\": there is no file");
   expect(edited(file, "file =", "cells = [1, 1, 1]\nfile ="), "scene.toml:3:9: mesh.cells = [1, 1, 1]: is not a key of file");
@@ -140,7 +141,8 @@ TEST(Scene, XiBelongsToMooneyRivlinAndLeavesZetaPositive) {
       "scene.toml:9:6: material.xi = 0.288676: must be below mu / (3 sqrt(3)) = 0.288675");
   expect_error(with_material(base + "\"mooney_rivlin\"\nxi = -0.1"), "scene.toml:9:6: material.xi = -0.1: must be at least 0");
   expect_error(with_material(base + "\"mooney_rivlin\""), "scene.toml:4:1: material.xi: is missing");
-  expect_error(with_material("density = 1\nyoungs_modulus = -3.0\npoissons_ratio = 0.0\nlaw = \"mooney_rivlin\"\nxi = 1"), "scene.toml:6:18: material.youngs_modulus");
+  expect_error(with_material("density = 1\nyoungs_modulus = -3.0\npoissons_ratio = 0.0\nlaw = \"mooney_rivlin\"\nxi = 1"),
+      "scene.toml:6:18: material.youngs_modulus");
   expect_error(with_material(base + "\"neo_hookean\"\nxi = 0"), "scene.toml:9:6: material.xi = 0: is not a key of neo_hookean");
   expect_error(with_material(base + "\"linear_elastic\"\nxi = 0"), "scene.toml:9:6: material.xi = 0: is not a key of linear_elastic");
 }

@@ -75,6 +75,8 @@ TEST(Set, UnknownListEntryIsRefused) {
   expect_error({"time.end=1", "mesh.cells.3=2"}, "--set #2: mesh.cells.3=2: mesh.cells: unknown list entry \"3\", allowed: 0 | 1 | 2");
   const std::string twice = column_scene + "[[boundary]]\nface = \"zmax\"\nkind = \"pressure\"\np = 1\n";
   expect_error({"boundary.zmax.kind=free"}, "--set #1: boundary.zmax.kind=free: boundary: 2 entries name \"zmax\", use a number", twice);
+  expect_error({"boundary.top.kind=free"},
+      "--set #1: boundary.top.kind=free: boundary: unknown list entry \"top\", allowed: 0 | 1 | 2 | zmin | zmax | xmax", twice);
 }
 
 TEST(Set, ErrorsInItsValueAreReportedAtIt) {
@@ -109,7 +111,7 @@ TEST(Set, MalformedSettingsAreRefused) {
   expect_error({"a b=2"}, "--set #1: a b=2: " + form);
   expect_error({"[time]=2"}, "--set #1: [time]=2: " + form);
   expect_error({"time.end="}, "--set #1: time.end=: the value is neither TOML nor a bare word");
-  expect_error({"mesh.cells=[1, 2"}, "--set #1: mesh.cells=[1, 2: the value is neither TOML nor a bare word");
+  expect_error({"mesh.cells=[1, 2"}, "--set #1: mesh.cells=[1, 2: the value is neither TOML nor a bare word: Error while parsing array");
   expect_error({"scene=two words"}, "--set #1: scene=two words: the value is neither TOML nor a bare word");
   expect_error({"scene=\xff\xfe"}, "--set #1: scene=");
   expect_error({"time.end=1\nq=3"}, "--set #1: \"time.end=1\\nq=3\": must be one line without control characters");
