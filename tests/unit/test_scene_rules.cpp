@@ -113,7 +113,7 @@ TEST(Scene, MeshHasExactlyOneSource) {
   EXPECT_EQ(r.scene.mesh.file.name, (folder.path / "bar.msh").string());
   EXPECT_EQ(r.scene.mesh.file.where, (folder.path / "scene.toml").string() + ":3:8");
   expect(edited(file, "file =", "box = { size = [1, 1, 1] }\nfile ="),
-      "scene.toml:4:8: mesh.file = \"bar.msh\": stands beside mesh.box, exactly one of box | cylinder | file");
+      "scene.toml:4:8: mesh.file = \"bar.msh\": stands beside mesh.box, exactly one of box | cylinder | needle | file");
   expect(edited(file, "file =", "box = { size = [1, 1, 1] }\ncells = [2, 2, 2]\nfile ="), "scene.toml:5:8: mesh.file = \"bar.msh\": stands beside mesh.box");
   expect(edited(file, "bar.msh", "rod.msh"), "scene.toml:3:8: mesh.file = \"rod.msh\": there is no file " + (folder.path / "rod.msh").string());
   expect(edited(file, "\"bar.msh\"", "\"\""), "mesh.file = \"\": there is no file");
