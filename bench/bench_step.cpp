@@ -1,4 +1,6 @@
 // The whole step of three scenes with their real supports: fused on one and two threads and the plain loop, timed in turn, results compared first.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
 #include <memory>
@@ -95,7 +97,7 @@ Measured measure(const std::string& name, const Scene& scene) {
     advance(s);
   }
   const double difference = largest_difference(*naive, s), dt = s.dt;
-  if (!(difference < same)) out.error = "differs from the plain loop by " + std::to_string(difference);
+  if (!(difference < same)) out.error = fmt::format("differs from the plain loop by {:.1e}", difference);
   std::vector<double> naive_s, one_s, two_s, ratio, speedup;
   for (int r = 0; r < repetitions; ++r) {
     const auto plain = timed(naive_steps, [&] { for (int i = 0; i < naive_steps; ++i) naive_advance(*naive, dt); });

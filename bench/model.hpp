@@ -22,22 +22,23 @@ struct Sizes {
 
 /// What the traits mean for the counts: numbers in {v, Sigma_J} that matter, and which rows exist.
 struct Carried {
-  bool linear, J, H, tensor, full, corrected, pressure, deformed;
+  bool linear, limited, fixed, jst, J, H, tensor, full, corrected, pressure, deformed;
   double w;  // 3 or 4
   explicit Carried(const PhysicsSpec& p)
-      : linear(p.reconstruction == Reconstruction::linear), J(p.formulation != Formulation::pF), H(p.formulation == Formulation::pFHJ),
+      : linear(p.reconstruction != Reconstruction::constant), limited(p.reconstruction == Reconstruction::limited), fixed(p.entropy_fix != EntropyFix::none),
+        jst(p.stabilisation == Stabilisation::jst), J(p.formulation != Formulation::pF), H(p.formulation == Formulation::pFHJ),
         tensor(J && p.pressure_jump == PressureJump::tensor), full(p.flux_correction == FluxCorrection::full), corrected(p.flux_correction != FluxCorrection::none),
         pressure(p.flux_correction == FluxCorrection::pressure), deformed(p.upwind_metric == UpwindMetric::deformed), w(J || pressure ? 4 : 3) {}
 };
 
 namespace bytes {
-inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, Q = 96, GP = 288, step_length = 8;
+inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, Q = 96, GP = 288, L = 32, lambda = 32, step_length = 8;
 inline constexpr double lists = 12;                                  // out, in, corner
 inline constexpr double edge = 28, edge_size = 8, in_edge = 8;       // b, C; |C|; edge number and a
 inline constexpr double corner = 32, corner_load = 4;                // b, c, C; load
 }  // namespace bytes
 
-/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, Q.
+/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, Q, L.
 inline Work gradient_work(const Carried& c, const Sizes& s) {
   const bool of_P = c.full || (c.tensor && c.linear), stores_GP = c.tensor && c.linear;
   const double half_edges = s.edges + s.in_edges;
@@ -47,18 +48,28 @@ inline Work gradient_work(const Carried& c, const Sizes& s) {
   const double numbers = c.w + (of_P ? 9 : 0);
   out.flops = half_edges * numbers * (1 + 6) + s.corners * numbers * (4 + 6) + s.nodes * 3 * numbers;  // difference, 3 fma; mean of two; scaling
   if (c.full) out.flops += half_edges * (3 + 9 * (1 + 6) + 18 + 18) + s.nodes * 18;                     // D; P_a - P_b + D . grad P; times C; (x) D
+  if (c.limited) out.flops += half_edges * (3 + c.w * (1 + 5 + 1 + 4)) + s.nodes * c.w * 8;             // D; jump, slope, four extremes; quotients
+  if (c.jst) out.flops += half_edges * (3 + 6 + 3 * c.w);                                                // D; weight; sum
+  if (c.limited || c.jst) out.bytes += s.nodes * (2 * bytes::L + (c.jst ? bytes::lambda : 0));
   return out;
 }
 
-/// edge_flux_part: reads W, X, PH, G, GP, Q and the edges; its buffer stays in L2.
+/// edge_flux_part: reads W, X, PH, G, GP, Q, L and the edges; its buffer stays in L2. edge_flux_jst_part: PH, L and the edges.
 inline Work edge_flux_work(const Carried& c, const Sizes& s) {
   const double n = c.w;
   Work out;
-  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::Q : 0)) +
+  if (c.jst) {
+    out.bytes = s.nodes * (bytes::PH + bytes::L + 8) + s.edges * (bytes::edge + bytes::edge_size) + s.corners * (bytes::corner + bytes::corner_load);
+    out.flops = s.edges * (3 * (3 + 1 + 6) + 4 * n) + s.corners * 9 * 5;
+    return out;
+  }
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::Q : 0) + (c.limited ? bytes::L : 0)) +
               s.edges * (bytes::edge + bytes::edge_size) + s.corners * (bytes::corner + bytes::corner_load);
   double flops = 3 * (6 + 1 + 12) + n;                                  // averages of P and H times C; jump
   if (c.linear) flops += 3 + 3 * n + 6 * n + 2 * n;                     // D; G_a + G_b; times D; subtracted
+  if (c.limited) flops += 6 * n;                                        // the slopes of a and b apart, times the limiter
   if (c.corrected) flops += 3 * n + 6 * n + n;                          // q
+  if (c.fixed) flops += 5 + 5 + 3 + 6 + (c.J ? 2 : 0) + 3;              // (c.plain); (d.plain); signs; normal and tangential parts
   flops += 5 + 2 + 2 + 2 + (c.deformed ? 2 : 0) + 6 + 12;               // c.c; shear; 1/(c.c cn); normal; root and comparison; (c.d); D^p
   if (c.J) flops += 3 + 2;                                              // D^J
   if (c.pressure) flops += 1;

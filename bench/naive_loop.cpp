@@ -1,8 +1,10 @@
 // Four passes a stage over whole arrays: gradient, flux, update, material.
 #include "bench/naive_loop.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 #include "engine/time_function.hpp"
 #include "kernels/materials/linear_elastic.hpp"
@@ -17,7 +19,10 @@ constexpr double theta = 2.0 / 3;  // [-] flux correction
 /// What the edge loop branches on: read at run time, or known to the compiler for the loops that benches compare with.
 struct AnyChoice {
   PhysicsSpec p;
-  bool linear() const { return p.reconstruction == Reconstruction::linear; }
+  bool linear() const { return p.reconstruction != Reconstruction::constant; }
+  bool limited() const { return p.reconstruction == Reconstruction::limited; }
+  bool fixed() const { return p.entropy_fix == EntropyFix::edge; }
+  bool jst() const { return p.stabilisation == Stabilisation::jst; }
   bool evolves_J() const { return p.formulation != Formulation::pF; }
   bool tensor() const { return p.pressure_jump == PressureJump::tensor; }
   bool deformed() const { return p.upwind_metric == UpwindMetric::deformed; }
@@ -26,12 +31,17 @@ struct AnyChoice {
 template <bool with_J>
 struct Baseline {
   static constexpr bool linear() { return true; }
+  static constexpr bool limited() { return false; }
+  static constexpr bool fixed() { return false; }
+  static constexpr bool jst() { return false; }
   static constexpr bool evolves_J() { return with_J; }
   static constexpr bool tensor() { return false; }
   static constexpr bool deformed() { return true; }
   static constexpr FluxCorrection correction() { return FluxCorrection::none; }
 };
-bool is_baseline(const AnyChoice& c) { return c.linear() && !c.tensor() && c.deformed() && c.correction() == FluxCorrection::none; }
+bool is_baseline(const AnyChoice& c) {
+  return c.linear() && !c.limited() && !c.fixed() && !c.jst() && !c.tensor() && c.deformed() && c.correction() == FluxCorrection::none;
+}
 
 double dot(const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
@@ -81,8 +91,46 @@ void correct_stress(NaiveLoop& n) {
     for (int m = 0; m < 9; ++m) n.Q[a][m / 3][m % 3] = n.stress[a].P[m / 3][m % 3] + theta / (4 * n.volume[a]) * n.Q[a][m / 3][m % 3];
 }
 
+/// Barth-Jespersen: the largest phi in [0, 1] for which W + phi G . D/2 stays between the values around at the midpoint of every edge (method, section 4).
+void limit(NaiveLoop& n) {
+  std::vector<std::array<double, 4>> most = n.W, least = n.W;
+  for (const NaiveEdge& e : n.edges)
+    for (int k = 0; k < 4; ++k) {
+      most[e.a][k] = std::max(most[e.a][k], n.W[e.b][k]), least[e.a][k] = std::min(least[e.a][k], n.W[e.b][k]);
+      most[e.b][k] = std::max(most[e.b][k], n.W[e.a][k]), least[e.b][k] = std::min(least[e.b][k], n.W[e.a][k]);
+    }
+  std::fill(n.L.begin(), n.L.end(), std::array<double, 4>{1, 1, 1, 1});
+  const auto visit = [&](int a, const double (&D)[3]) {
+    for (int k = 0; k < 4; ++k) {
+      const double q = 0.5 * dot(n.G[a][k].data(), D);
+      if (q > 0) n.L[a][k] = std::min(n.L[a][k], (most[a][k] - n.W[a][k]) / q);
+      if (q < 0) n.L[a][k] = std::min(n.L[a][k], (least[a][k] - n.W[a][k]) / q);
+    }
+  };
+  for (const NaiveEdge& e : n.edges) {
+    const Vec3 &A = n.X[e.a], &B = n.X[e.b];
+    visit(e.a, {B[0] - A[0], B[1] - A[1], B[2] - A[2]});
+    visit(e.b, {A[0] - B[0], A[1] - B[1], A[2] - B[2]});
+  }
+}
+
+/// L_a = sum_b (1 + lambda_a . D)(W_b - W_a) (method, section 9).
+void pseudo_laplacian(NaiveLoop& n) {
+  std::fill(n.L.begin(), n.L.end(), std::array<double, 4>{});
+  for (const NaiveEdge& e : n.edges) {
+    const double D[3] = {n.X[e.b][0] - n.X[e.a][0], n.X[e.b][1] - n.X[e.a][1], n.X[e.b][2] - n.X[e.a][2]};
+    const double weight_a = 1 + dot(n.lambda[e.a].data(), D), weight_b = 1 - dot(n.lambda[e.b].data(), D);
+    for (int k = 0; k < 4; ++k) {
+      n.L[e.a][k] += weight_a * (n.W[e.b][k] - n.W[e.a][k]);
+      n.L[e.b][k] += weight_b * (n.W[e.a][k] - n.W[e.b][k]);
+    }
+  }
+}
+
 void gradient_pass(NaiveLoop& n) {
   add_gradients<4>(n, [&](int a) { return n.W[a].data(); }, n.G);
+  if (!n.lambda.empty()) pseudo_laplacian(n);
+  else if (!n.L.empty()) limit(n);
   if (!n.GP.empty()) add_gradients<9>(n, [&](int a) { return &n.stress[a].P[0][0]; }, n.GP);
   if (!n.Q.empty()) correct_stress(n);
 }
@@ -95,31 +143,59 @@ NANSON_INLINE void average_times_C(const double (&A)[3][3], const double (&B)[3]
   }
 }
 
+/// Jump of {v, Sigma_J} across the edge's midpoint, W+ - W-.
+template <class Choice>
+NANSON_INLINE void reconstruct(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&D)[3], double (&jump)[4]) {
+  const int count = choice.evolves_J() ? 4 : 3;
+  if (choice.limited())
+    for (int k = 0; k < count; ++k) jump[k] -= 0.5 * (n.L[e.a][k] * dot(n.G[e.a][k].data(), D) + n.L[e.b][k] * dot(n.G[e.b][k].data(), D));
+  else if (choice.linear())
+    for (int k = 0; k < count; ++k) jump[k] -= 0.5 * (dot(n.G[e.a][k].data(), D) + dot(n.G[e.b][k].data(), D));
+}
+
+/// c . (P+ - P-) C (eq. 36b).
+template <class Choice>
+double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3], const double (&D)[3]) {
+  double across = 0;
+  for (int i = 0; i < 3; ++i)
+    for (int I = 0; I < 3; ++I) {
+      double dP = n.stress[e.b].P[i][I] - n.stress[e.a].P[i][I];
+      if (choice.linear()) dP -= 0.5 * (dot(n.GP[e.a][3 * i + I].data(), D) + dot(n.GP[e.b][3 * i + I].data(), D));
+      across += c[i] * dP * e.C[I];
+    }
+  return across;
+}
+
 /// {D^p, D^J} of an edge: D^p = |C|/2 rho [c_p n (x) n + c_s (I - n (x) n)] (v+ - v-) (eq. 36a, 37, 41), D^J = |c|^2 (Sigma+ - Sigma-)/(2 rho c_p |C|)
 /// (Remark 4, eq. 42) or c . (P+ - P-) C/(2 rho c_p |C|) (eq. 36b), n = c/|c|, c = H_ave C, c_p times max(1, |H_ave N|) in the deformed metric.
+/// Entropy fix: without the normal or the tangential part of D^p, or D^J, where it opposes the plain jump (method, section 3).
 template <class Choice>
 NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3], const double (&D)[3]) {
   const double rho = n.material.rho, cp = n.material.cp, cs = n.material.cs;
-  double jump[4];
-  for (int k = 0; k < 4; ++k) jump[k] = n.W[e.b][k] - n.W[e.a][k];
-  if (choice.linear())
-    for (int k = 0; k < (choice.evolves_J() ? 4 : 3); ++k) jump[k] -= 0.5 * (dot(n.G[e.a][k].data(), D) + dot(n.G[e.b][k].data(), D));
+  double plain[4], jump[4];
+  for (int k = 0; k < 4; ++k) jump[k] = plain[k] = n.W[e.b][k] - n.W[e.a][k];
+  reconstruct(n, e, choice, D, jump);
   const double cc = dot(c, c), stretch = choice.deformed() ? std::max(1.0, std::sqrt(cc) / e.size) : 1.0, normal = dot(c, jump) / cc;
-  std::array<double, 4> out{};
-  for (int i = 0; i < 3; ++i) out[i] = 0.5 * e.size * rho * (cs * jump[i] + (cp * stretch - cs) * normal * c[i]);
-  if (!choice.evolves_J()) return out;
-  double across = cc * jump[3];
-  if (choice.tensor()) {
-    const NaiveStress &s_a = n.stress[e.a], &s_b = n.stress[e.b];
-    across = 0;
-    for (int i = 0; i < 3; ++i)
-      for (int I = 0; I < 3; ++I) {
-        double dP = s_b.P[i][I] - s_a.P[i][I];
-        if (choice.linear()) dP -= 0.5 * (dot(n.GP[e.a][3 * i + I].data(), D) + dot(n.GP[e.b][3 * i + I].data(), D));
-        across += c[i] * dP * e.C[I];
-      }
+  double by_p = cp * stretch, by_s = cs;
+  if (choice.fixed()) {
+    double tangential = 0;
+    for (int i = 0; i < 3; ++i) tangential += (jump[i] - normal * c[i]) * plain[i];
+    if (normal * dot(c, plain) < 0) by_p = 0;
+    if (tangential < 0) by_s = 0;
   }
-  out[3] = across / (2 * rho * cp * stretch * e.size);
+  std::array<double, 4> out{};
+  for (int i = 0; i < 3; ++i) out[i] = 0.5 * e.size * rho * (by_s * jump[i] + (by_p - by_s) * normal * c[i]);
+  if (!choice.evolves_J()) return out;
+  const double across = choice.tensor() ? traction_jump_along(n, e, choice, c, D) : cc * jump[3];
+  if (!choice.fixed() || across * plain[3] >= 0) out[3] = across / (2 * rho * cp * stretch * e.size);
+  return out;
+}
+
+/// {D^p, D^J} of the Jameson-Schmidt-Turkel scheme (method, section 9).
+std::array<double, 4> jst_dissipation(const NaiveLoop& n, const NaiveEdge& e, bool evolves_J) {
+  std::array<double, 4> out{};
+  for (int i = 0; i < 3; ++i) out[i] = -1.0 / 256 * n.material.rho * n.material.cp * e.size * (n.L[e.b][i] - n.L[e.a][i]);
+  if (evolves_J) out[3] = -1.0 / 8192 * n.material.cp * e.size * (n.L[e.b][3] - n.L[e.a][3]);
   return out;
 }
 
@@ -134,7 +210,7 @@ void flux_pass(NaiveLoop& n, Choice choice) {
     double t[3], c[3];
     average_times_C(s_a.P, s_b.P, e.C, t);
     average_times_C(s_a.H, s_b.H, e.C, c);
-    std::array<double, 4> f = stabilisation(n, e, choice, c, D);
+    std::array<double, 4> f = choice.jst() ? jst_dissipation(n, e, choice.evolves_J()) : stabilisation(n, e, choice, c, D);
     for (int i = 0; i < 3; ++i) f[i] += t[i];
     if (choice.correction() != FluxCorrection::none) {
       double q[4];
@@ -236,7 +312,7 @@ void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<N
 template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 void material_pass(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H_of) {
   const MaterialConstants& m = n.material;
-  const bool deformed = n.scene->physics.upwind_metric == UpwindMetric::deformed;
+  const bool deformed = n.scene->physics.upwind_metric == UpwindMetric::deformed, jst = n.scene->physics.stabilisation == Stabilisation::jst;
   n.report = {};
   for (std::size_t a = 0; a < nodes.size(); ++a) {
     const NaiveNode& U = nodes[a];
@@ -246,7 +322,7 @@ void material_pass(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std:
       for (int k = 0; k < 9; ++k) H[k / 3][k % 3] = H_of[a][k / 3][k % 3];
     const Stress<double> s = Material<law, volumetric, isochoric, formulation>::stress(F, H, U.J, m);
     for (int k = 0; k < 9; ++k) n.stress[a].P[k / 3][k % 3] = s.P[k / 3][k % 3], n.stress[a].H[k / 3][k % 3] = s.H[k / 3][k % 3];
-    n.W[a] = {U.v[0], U.v[1], U.v[2], s.Sigma_J};
+    n.W[a] = {U.v[0], U.v[1], U.v[2], !jst ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : U.J};
     double c = std::sqrt(s.rho_c2 / m.rho);
     if (formulation != Formulation::pF && law != Law::linear_elastic) c = std::max(c, s.d2U / (m.rho * m.cp) * (deformed ? std::sqrt(s.H2) : s.H2));
     n.report.fastest = std::max(n.report.fastest, c / n.step_length[a]);
@@ -277,6 +353,7 @@ void material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vect
     case Law::linear_elastic: return material_of_formulation<Law::linear_elastic, Volumetric::quadratic, Isochoric::F>(n, nodes, H);
     case Law::neo_hookean: return material_of_law<Law::neo_hookean>(n, nodes, H);
     case Law::mooney_rivlin: return material_of_law<Law::mooney_rivlin>(n, nodes, H);
+    case Law::hencky_j2: throw std::invalid_argument("the plain loop has no plasticity");
   }
 }
 
@@ -300,9 +377,25 @@ void allocate(NaiveLoop& n) {
   const bool full = p.flux_correction == FluxCorrection::full;
   n.now.resize(nodes), n.stage.resize(nodes), n.W.resize(nodes), n.stress.resize(nodes), n.G.resize(nodes), n.force.resize(nodes);
   if (p.formulation == Formulation::pFHJ) n.H_now.resize(nodes), n.H_stage.resize(nodes);
-  if (full || (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear)) n.GP.resize(nodes);
+  if (full || (p.pressure_jump == PressureJump::tensor && p.reconstruction != Reconstruction::constant)) n.GP.resize(nodes);
   if (full) n.Q.resize(nodes);
   if (p.flux_correction != FluxCorrection::none) n.dG.resize(nodes);
+  if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) n.L.resize(nodes);
+}
+
+/// lambda_a = -M^-1 R, R = sum_b D, M = sum_b D (x) D: the pseudo-Laplacian of a linear field is zero (method, section 9).
+void find_lambda(NaiveLoop& n) {
+  std::vector<Eigen::Vector3d> R(n.row.size(), Eigen::Vector3d::Zero());
+  std::vector<Eigen::Matrix3d> M(n.row.size(), Eigen::Matrix3d::Zero());
+  for (const NaiveEdge& e : n.edges) {
+    const Eigen::Vector3d D = Eigen::Vector3d(n.X[e.b].data()) - Eigen::Vector3d(n.X[e.a].data());
+    R[e.a] += D, M[e.a] += D * D.transpose();
+    R[e.b] -= D, M[e.b] += D * D.transpose();
+  }
+  for (std::size_t a = 0; a < n.row.size(); ++a) {
+    const Eigen::Vector3d lambda = -M[a].inverse() * R[a];
+    n.lambda.push_back({lambda[0], lambda[1], lambda[2]});
+  }
 }
 
 void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_row) {
@@ -332,6 +425,7 @@ NaiveLoop make_naive_loop(const Simulation& s) {
   for (LoadedFace& f : n.loaded)
     for (int& node : f.node) node = node_of_row[node];
   allocate(n);
+  if (n.scene->physics.stabilisation == Stabilisation::jst) find_lambda(n);
   copy_state(n, s);
   material(n, n.now, n.H_now);
   return n;
@@ -384,12 +478,12 @@ double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& node
       const double d = std::abs(ours - theirs);
       if (!(d <= difference)) difference = std::isnan(d) ? HUGE_VAL : d;
     }
-  } v, J, F, x, H, Sigma_J, P;
+  } v, J, F, x, H, swept, P;
   for (std::size_t a = 0; a < n.row.size(); ++a) {
     const NaiveNode& node = nodes[a];
     const std::size_t r = static_cast<std::size_t>(n.row[a]);
     const double *U = U_of + row::U * r, *PH = PH_of + row::PH * r;
-    J.add(node.J, U[3]), Sigma_J.add(n.W[a][3], W_of[row::W * r + 3]);
+    J.add(node.J, U[3]), swept.add(n.W[a][3], W_of[row::W * r + 3]);
     for (int i = 0; i < 3; ++i) {
       v.add(node.v[i], U[i]), x.add(node.x[i], U[4 * (i + 1) + 3]);
       for (int I = 0; I < 3; ++I) {
@@ -398,8 +492,10 @@ double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& node
       }
     }
   }
+  P.size = std::max(P.size, 0.1 * n.material.kappa);
+  if (n.lambda.empty()) swept.size = std::max(swept.size, 0.1 * n.material.kappa);
   double worst = 0;
-  for (const Field& f : {v, J, F, x, H, Sigma_J, P})
+  for (const Field& f : {v, J, F, x, H, swept, P})
     if (f.difference > 0) worst = std::max(worst, f.difference / f.size);
   return worst;
 }

@@ -42,12 +42,14 @@ struct NaiveLoop {
 
   std::vector<NaiveNode> now, stage;               // U^n, and the state of a stage
   std::vector<Table<3, 3>> H_now, H_stage;         // pFHJ
-  std::vector<std::array<double, 4>> W;            // {v, Sigma_J}
+  std::vector<std::array<double, 4>> W;            // {v, Sigma_J}; {v, J} for jst
   std::vector<NaiveStress> stress;
   std::vector<Table<4, 3>> G;                      // grad of {v, Sigma_J}
   std::vector<Table<9, 3>> GP;                     // grad of P, tensor jump or full correction
   std::vector<Table<3, 3>> Q;                      // corrected stress, full correction
   std::vector<Table<3, 3>> dG;                     // correction of the velocity gradient [m^3/s], flux correction
+  std::vector<std::array<double, 4>> L;            // limiter of W; its pseudo-Laplacian for jst
+  std::vector<Vec3> lambda;                        // [1/m] jst
   std::vector<std::array<double, 4>> force;        // {force [N], J source [m^3/s]}
   double t = 0;                                    // [s]
   PartReport report;                               // of the present state
@@ -65,7 +67,8 @@ void naive_advance(NaiveLoop& n, double dt);
 /// Power that the stabilisation takes out of the present state's edges [W].
 double naive_dissipation(NaiveLoop& n);
 
-/// Largest difference to the rows {U, W, PH} over v, J, F, x, H, Sigma_J and P, each relative to the largest value of its field; or to a simulation.
+/// Largest difference to the rows {U, W, PH} over v, J, F, x, H, Sigma_J (or what is swept in its place) and P, each relative to the largest value of its field; stresses,
+/// whose round-off is that of kappa (J - 1), to no less than kappa/10. Or to a simulation.
 double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U, const double* W, const double* PH);
 double largest_difference(const NaiveLoop& n, const Simulation& s);
 

@@ -44,6 +44,12 @@ foreach(metric deformed paper)
   endforeach()
 endforeach()
 
+foreach(law neo_hookean mooney_rivlin)
+  add_instance(projected_stress_${law} projected_stress_part.hpp
+    "template PartReport projected_stress_part<Law::${law}>(const Part&, const Rows&, const Coefficients&, const double*)\;"
+    "template double projected_energy_part<Law::${law}>(const Part&, const Rows&, const Coefficients&)\;")
+endforeach()
+
 foreach(formulation pF pFJ pFHJ)
   foreach(corrected true false)
     add_instance(accumulate_update_${formulation}_${corrected} accumulate_update_part.hpp

@@ -31,7 +31,7 @@ Tensor<double> F_of(const double* U) {
 Tensor<double> cauchy(const Simulation& s, int node) {
   const double *U = U_row(s, node), *PH = PH_row(s, node);
   const Tensor<double> F = F_of(U);
-  const double J = s.scene->physics.formulation == Formulation::pF ? determinant(F, cofactor(F)) : U[3];
+  const double J = evolves_J(s.scene->physics.formulation) ? U[3] : determinant(F, cofactor(F));
   Tensor<double> sigma{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -68,7 +68,7 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
   }
   const auto det_F = [&] { const auto F = F_of(U); return determinant(F, cofactor(F)); };
   if (name == "det_F") out[0] = det_F();
-  if (name == "J") out[0] = s.scene->physics.formulation == Formulation::pF ? det_F() : U[3];
+  if (name == "J") out[0] = evolves_J(s.scene->physics.formulation) ? U[3] : det_F();
   if (name == "pressure") { const auto a = cauchy(s, node); out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3; }
   if (name == "plastic_strain") out[0] = plastic_strain(s, node);
   if (name == "von_mises") out[0] = von_mises(cauchy(s, node));

@@ -74,6 +74,7 @@ std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vecto
   c.insert(c.end(), {{"min_det_F", "-"}, {"max_det_F", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
   if (!s.state.plastic.empty()) c.push_back({"max_plastic_strain", "-"});
   add_monitor_columns(*s.scene, c);
+  if (s.scene->physics.formulation == Formulation::pFp) c.insert(c.end(), {{"projection_iterations", "1/stage"}, {"projection_residual", "-"}});
   for (const std::string& face : s.boundary.held_faces)
     for (const char* k : axis) c.push_back({fmt::format("reaction_{}_{}", face, k), "N"});
   for (const Probe& p : probes)
@@ -96,6 +97,7 @@ std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes)
   row.insert(row.end(), {x.min_detF, x.max_detF, x.min_J, x.max_J, x.max_speed});
   if (!s.state.plastic.empty()) row.push_back(x.max_plastic_strain);
   add_monitor_values(s, row);
+  if (s.scene->physics.formulation == Formulation::pFp) row.insert(row.end(), {0.5 * static_cast<double>(s.projection.step_iterations), s.projection.residual});
   for (std::size_t face = 0; face < s.boundary.held_faces.size(); ++face) {
     const Vec3 R = reaction(s, static_cast<int>(face));
     row.insert(row.end(), R.begin(), R.end());

@@ -74,11 +74,11 @@ Momenta momenta(Simulation& s) {
 
 Extrema extrema(const Simulation& s) {
   Extrema e{1e300, -1e300, 1e300, -1e300, 0, 0};
-  const bool evolves_J = s.scene->physics.formulation != Formulation::pF;
+  const bool with_J = evolves_J(s.scene->physics.formulation);
   for (int n = 0; n < s.order.rows; ++n) {
     if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * n)];
-    const double d = det_F(U), J = evolves_J ? U[3] : d;
+    const double d = det_F(U), J = with_J ? U[3] : d;
     e.min_detF = std::min(e.min_detF, d), e.max_detF = std::max(e.max_detF, d);
     e.min_J = std::min(e.min_J, J), e.max_J = std::max(e.max_J, J);
     e.max_speed = std::max(e.max_speed, norm3(U[0], U[1], U[2]));
@@ -111,11 +111,60 @@ std::optional<double> angular_momentum_drift(Simulation& s) {
   return m.angular_scale > 0 ? norm3(m.angular[0] - L[0] - I[0], m.angular[1] - L[1] - I[1], m.angular[2] - L[2] - I[2]) / m.angular_scale : 0;
 }
 
+double checkerboard(Simulation& s) {
+  Aligned<double> G(row::G * static_cast<std::size_t>(s.order.rows), 0.0);  // the state's own may be absent, or of an earlier stage
+  Rows rows{};
+  rows.X = s.state.X.data(), rows.W = s.state.W[s.state.now].data(), rows.G = G.data();
+  const auto edges = s.order.edges();
+  const auto corners = s.order.corners();
+  const auto lists = s.order.lists();
+  for_parts(s, [&](int p, Scratch) { gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists, rows, s.coefficients); });
+  const auto sum = [&](bool left_over) {
+    return sum_over_parts(s, [&](int p) {
+      const Part& part = s.order.parts[static_cast<std::size_t>(p)];
+      double part_sum = 0;
+      for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
+        const int a = edges.a[e], b = edges.b[e];
+        if (b < a) continue;  // the other part's copy counts
+        double d = rows.W[row::W * b + 3] - rows.W[row::W * a + 3], length2 = 0;
+        for (int k = 0; k < 3; ++k) {
+          const double D = rows.X[row::X * b + k] - rows.X[row::X * a + k];
+          length2 += D * D;
+          if (left_over) d -= 0.5 * D * (rows.G[row::G * a + 4 * k + 3] + rows.G[row::G * b + 4 * k + 3]);
+        }
+        part_sum += edges.size[e] / std::sqrt(length2) * d * d;
+      }
+      return part_sum;
+    });
+  };
+  const double all = sum(false);
+  return all > 0 ? std::sqrt(sum(true) / all) : 0;
+}
+
+namespace {
+
+/// Power -sum p (S + theta-term) that the pressure's stabilisation and the drift control take [W]: p and S of the stage's start, the drift of the last projection.
+double pressure_stabilisation_power(Simulation& s, const Rows& rows) {
+  const Aligned<double>& taken = s.projection.taken[rows.U_stage == s.state.U[0].data() ? 0 : 1];
+  return -sum_over_parts(s, [&](int p) {
+    const Part& part = s.projection.parts[static_cast<std::size_t>(p)];
+    double sum = 0;
+    for (int n = part.node_begin; n < part.node_end; ++n) {
+      const std::size_t i = static_cast<std::size_t>(n);
+      sum += rows.W[row::W * n + 3] * (taken[i] + (s.projection.fixed[i] - s.projection.lag[i]));
+    }
+    return sum;
+  });
+}
+
+}  // namespace
+
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
   const auto edges = s.order.edges();
   const auto lists = s.order.lists();
   s.ledger.dissipated +=
       weighted_dt * sum_over_parts(s, [&](int p) { return s.functions.dissipation(s.order.parts[static_cast<std::size_t>(p)], edges, lists, rows, s.coefficients); });
+  if (s.scene->physics.formulation == Formulation::pFp) s.ledger.dissipated += weighted_dt * pressure_stabilisation_power(s, rows);
   double power = 0;
   for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)
     for (int n : s.boundary.slot_nodes[slot])
@@ -195,17 +244,17 @@ std::string place(const Simulation& s, int node) {
   const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
   const Vec3& X = mesh.X[static_cast<std::size_t>(node)];
   return fmt::format("node {} at X = ({:.6g}, {:.6g}, {:.6g}), x = ({:.6g}, {:.6g}, {:.6g}) m, det F = {:.6g}, J = {:.6g}, |v| = {:.6g} m/s, tets {}, region {}", node,
-                     X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), det_F(U), s.scene->physics.formulation == Formulation::pF ? det_F(U) : U[3],
+                     X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), det_F(U), evolves_J(s.scene->physics.formulation) ? U[3] : det_F(U),
                      norm3(U[0], U[1], U[2]), fmt::join(tets, " "), fmt::join(regions, " "));
 }
 
 }  // namespace
 
 Breakdown locate_breakdown(Simulation& s, int stage) {
-  const bool evolves_J = s.scene->physics.formulation != Formulation::pF;
+  const bool with_J = evolves_J(s.scene->physics.formulation);
   for (int node = 0; node < s.order.nodes; ++node) {
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
-    const char* why = !(det_F(U) > 0) ? "det F is not positive" : evolves_J && !(U[3] > 0) ? "J is not positive" : !std::isfinite(norm3(U[0], U[1], U[2])) ? "v is not finite" : nullptr;
+    const char* why = !(det_F(U) > 0) ? "det F is not positive" : with_J && !(U[3] > 0) ? "J is not positive" : !std::isfinite(norm3(U[0], U[1], U[2])) ? "v is not finite" : !std::isfinite(U[3]) ? "the pressure is not finite" : nullptr;
     if (why)
       return {node, fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
                                 why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node))};

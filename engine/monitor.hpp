@@ -59,6 +59,10 @@ std::optional<double> angular_momentum_drift(Simulation& s);
 /// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
 Vec3 reaction(const Simulation& s, int face);
 
+/// Checkerboard measure of the swept pressure: sqrt(sum W (p_b - p_a - (g_a + g_b)/2 . D)^2 / sum W (p_b - p_a)^2) over the edges, W = |C|/|D|, g the Green-Gauss
+/// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11).
+double checkerboard(Simulation& s);
+
 /// One stage's share of dissipation and external work, from the rows of the stage before its update.
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
 /// After a stage: its share `mean` in the mean reactions, in impulse and work of supports and body force, and in the angular impulse of all that acts.

@@ -40,25 +40,25 @@ void find_gradient(PartFunctions& f, const PhysicsSpec& p) {
 
 template <Reconstruction reconstruction, PressureJump jump, UpwindMetric metric, EntropyFix fix>
 void find_upwind(PartFunctions& f, const PhysicsSpec& p) {
-  const bool evolves_J = p.formulation != Formulation::pF;
+  const bool with_J = evolves_J(p.formulation);
   with(p.flux_correction, [&]<FluxCorrection correction>() {
     if constexpr (is_built(reconstruction, correction, jump, fix)) {
       f.edge_flux = edge_flux_part<reconstruction, correction, true, jump, metric, fix>;
       if constexpr (jump == PressureJump::scalar)
-        if (!evolves_J) f.edge_flux = edge_flux_part<reconstruction, correction, false, jump, metric, fix>;
+        if (!with_J) f.edge_flux = edge_flux_part<reconstruction, correction, false, jump, metric, fix>;
     }
   });
   if constexpr (is_built(reconstruction, FluxCorrection::none, jump, fix)) {
     f.dissipation = dissipation_part<reconstruction, true, jump, metric, fix>;
     if constexpr (jump == PressureJump::scalar)
-      if (!evolves_J) f.dissipation = dissipation_part<reconstruction, false, jump, metric, fix>;
+      if (!with_J) f.dissipation = dissipation_part<reconstruction, false, jump, metric, fix>;
   }
 }
 
 void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
   find_gradient(f, p);
   if (p.stabilisation == Stabilisation::jst) {
-    f.edge_flux = p.formulation == Formulation::pF ? edge_flux_jst_part<false> : edge_flux_jst_part<true>;
+    f.edge_flux = evolves_J(p.formulation) ? edge_flux_jst_part<true> : edge_flux_jst_part<false>;
   } else {
     with(p.reconstruction, [&]<Reconstruction reconstruction>() {
       with(p.upwind_metric, [&]<UpwindMetric metric>() {
@@ -69,8 +69,9 @@ void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
     });
   }
   const bool corrected = p.flux_correction != FluxCorrection::none;
-  with(p.formulation, [&]<Formulation formulation>() {
-    f.accumulate_update = corrected ? accumulate_update_part<formulation, true> : accumulate_update_part<formulation, false>;
+  with(p.formulation == Formulation::pFp ? Formulation::pF : p.formulation, [&]<Formulation formulation>() {  // the projection follows the update
+    if constexpr (formulation != Formulation::pFp)
+      f.accumulate_update = corrected ? accumulate_update_part<formulation, true> : accumulate_update_part<formulation, false>;
   });
 }
 
@@ -80,7 +81,10 @@ void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec
       with(m.isochoric, [&]<Isochoric isochoric>() {
         with(formulation, [&]<Formulation form>() {
           constexpr bool own_energy = law == Law::linear_elastic || law == Law::hencky_j2;
-          if constexpr (own_energy && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) return;
+          if constexpr (form == Formulation::pFp) {
+            if constexpr (!own_energy && volumetric == Volumetric::quadratic && isochoric == Isochoric::F)
+              f.stress = projected_stress_part<law>, f.strain_energy = projected_energy_part<law>;
+          } else if constexpr (own_energy && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) return;
           else if constexpr (form == Formulation::pF && isochoric != Isochoric::F) return;
           else {
             f.stress = stress_part<law, volumetric, isochoric, form>;
@@ -96,7 +100,8 @@ void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec
 
 const char* const what_is_built =
     "built: upwind with constant and flux_correction none; upwind with linear or limited and flux_correction none | pressure | full; "
-    "pressure_jump tensor not with limited, entropy_fix or pF; jst with linear, flux_correction none, scalar, no entropy_fix";
+    "pressure_jump tensor not with limited, entropy_fix or pF; jst with linear, flux_correction none, scalar, no entropy_fix; "
+    "pFp with upwind, constant or linear, scalar, flux_correction none, no entropy_fix";
 
 PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material) {
   PartFunctions f;

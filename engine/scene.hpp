@@ -23,6 +23,8 @@ enum class TimeKind { constant, ramp, sine, pulse, logistic, table };
 enum class Integrator { tvd_rk2, ssp_rk3 };
 enum class StepRule { dual, edge, paper };
 enum class EnergyGrowth { warn, stop };
+enum class ProjectionSolver { cg, pseudo_time };
+enum class OnLimit { stop, warn };
 
 constexpr auto words(MeshSource) { return std::array<std::string_view, 4>{"box", "cylinder", "needle", "file"}; }
 constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
@@ -35,6 +37,8 @@ constexpr auto words(BoundaryKind) { return std::array<std::string_view, 7>{"fix
 constexpr auto words(TimeKind) { return std::array<std::string_view, 6>{"constant", "ramp", "sine", "pulse", "logistic", "table"}; }
 constexpr auto words(Integrator) { return std::array<std::string_view, 2>{"tvd_rk2", "ssp_rk3"}; }
 constexpr auto words(StepRule) { return std::array<std::string_view, 3>{"dual", "edge", "paper"}; }
+constexpr auto words(ProjectionSolver) { return std::array<std::string_view, 2>{"cg", "pseudo_time"}; }
+constexpr auto words(OnLimit) { return std::array<std::string_view, 2>{"stop", "warn"}; }
 constexpr auto words(EnergyGrowth) { return std::array<std::string_view, 2>{"warn", "stop"}; }
 
 /// A name that can only be checked against the mesh, with the place in the scene file that says it ("file:line:column").
@@ -79,6 +83,17 @@ struct PhysicsSpec {
   UpwindMetric upwind_metric = UpwindMetric::deformed;
   EntropyFix entropy_fix = EntropyFix::none;
   bool keep_angular_momentum = false;              // tvd_rk2 only
+};
+
+/// pFp only (method, section 10).
+struct ProjectionSpec {
+  ProjectionSolver solver = ProjectionSolver::cg;
+  double stabilisation = 0.02;                     // [-] beta
+  double drift_control = 0.1;                      // [-] theta: share of the volume error that a stage may correct
+  double length_scale = 0;                         // [m] pseudo_time
+  double tolerance = 1e-3;                         // [-] of the volume constraint, against the velocity gradient
+  long max_iterations = 200;                       // a stage
+  OnLimit on_limit = OnLimit::stop;
 };
 
 struct InitialSpec {
@@ -159,6 +174,7 @@ struct Scene {
   MeshSpec mesh;
   MaterialSpec material;
   PhysicsSpec physics;
+  ProjectionSpec projection;
   InitialSpec initial;
   std::vector<BoundarySpec> boundary;
   Vec3 body_force{};                               // [m/s^2]

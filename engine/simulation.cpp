@@ -27,6 +27,7 @@ Coefficients coefficients_of(const Scene& scene) {
   Coefficients k;
   k.material = constants_of(scene.material);
   k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
+  if (scene.physics.formulation == Formulation::pFp) k.rho_cp = k.rho_cs;  // the pressure waves are the projection's
   k.adjoint = scene.physics.boundary_flux == BoundaryFlux::adjoint;
   k.sweeps_J = scene.physics.stabilisation == Stabilisation::jst;
   k.deformed_metric = scene.physics.upwind_metric == UpwindMetric::deformed;
@@ -55,7 +56,7 @@ void set_initial_state(Simulation& s) {
       U[k] = p.v[k];
       for (int I = 0; I < 3; ++I) U[4 * (I + 1) + k] = F[k][I] = p.F[k][I];
     }
-    U[3] = initial_J(*s.scene, p.F);
+    U[3] = s.scene->physics.formulation == Formulation::pFp ? 0.0 : initial_J(*s.scene, p.F);  // undeformed: no pressure
     if (s.state.H[0].empty()) continue;
     const Tensor<double> H = cofactor(F);
     for (int m = 0; m < 9; ++m) s.state.H[0][row::H * r + 4 * (m / 3) + m % 3] = H[m % 3][m / 3];
@@ -108,6 +109,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   s.state = make_state(scene, mesh, dual, s.order, s.boundary);
   s.functions = find_part_functions(scene.physics, scene.material);
   s.coefficients = coefficients_of(scene);
+  s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
   s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
   s.scratch.resize(static_cast<std::size_t>(s.threads));
   for (auto& scratch : s.scratch) scratch.assign(static_cast<std::size_t>(8 * s.order.most_rows + 16 * s.order.most_nodes) + 16, 0.0);
@@ -120,6 +122,8 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   s.setup_s = wall_seconds() - start;
   return s;
 }
+
+double bytes_per_node(const Simulation& s) { return bytes_per_node(s.state, s.order) + static_cast<double>(bytes(s.projection)) / s.order.nodes; }
 
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
   std::vector<std::pair<int, double>> steps;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "engine/angular_momentum.hpp"
+#include "engine/incompressible.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
 #include "engine/time_function.hpp"
@@ -17,6 +18,7 @@ struct RungeKuttaStage {
   double old, stage, mean;
 };
 constexpr RungeKuttaStage tvd_rk2[] = {{0, 1, 0.5}, {0.5, 0.5, 0.5}};
+constexpr RungeKuttaStage projected_rk2[] = {{0, 1, 0.5}, {0, 1, 0.5}};  // the projection averages itself
 constexpr RungeKuttaStage ssp_rk3[] = {{0, 1, 1.0 / 6}, {0.75, 0.25, 1.0 / 6}, {1.0 / 3, 2.0 / 3, 2.0 / 3}};
 
 /// Force on each corner of the loaded faces at time t, on the stage's geometry; returns their sum [N].
@@ -42,17 +44,20 @@ bool broken(const Simulation& s) {
 }
 
 /// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
-void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
+/// The incompressible scheme projects before the stress. Returns why the run must not go on, or nothing.
+std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
   State& u = s.state;
-  const int from = number == 0 ? 0 : 1, to = number == stages - 1 ? 0 : 1;
+  const bool projected = s.scene->physics.formulation == Formulation::pFp;
+  const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
   const Rows rows = stage_rows(u, from, to);
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant, keeps = s.scene->physics.keep_angular_momentum;
-  const double* arms = number == 0 ? rows.U_stage : rows.U_new;  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
+  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
+  const bool keeps = s.scene->physics.keep_angular_momentum;
+  const double* arms = u.U[0].data();  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
 
   if (!s.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
@@ -71,13 +76,15 @@ void stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
       s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
-      s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
+      if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
     });
   });
   if (keeps && !broken(s))
     s.clock.time("keep_angular_momentum", [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
+  const std::string failure = projected ? project_stage(s, number) : std::string();
   book_stage(s, arms, rk.mean, number == 0);
-  u.now = 1 - u.now;
+  if (!projected) u.now = 1 - u.now;
+  return failure;
 }
 
 /// Rate of each condition's time factor over the step: prescribed velocities are then exact at t + dt, in every Runge-Kutta stage.
@@ -129,13 +136,15 @@ void advance(Simulation& s) {
   prescribe(s, s.acceleration);
   s.coefficients.acceleration = s.acceleration.data();
   const bool rk2 = s.scene->time.integrator == Integrator::tvd_rk2;
-  const RungeKuttaStage* stages = rk2 ? tvd_rk2 : ssp_rk3;
+  const RungeKuttaStage* stages = s.scene->physics.formulation == Formulation::pFp ? projected_rk2 : rk2 ? tvd_rk2 : ssp_rk3;
   const int count = rk2 ? 2 : 3;
   for (int i = 0; i < count; ++i) {
-    stage(s, stages[i], i, count);
-    if (broken(s)) {
+    const std::string failure = stage(s, stages[i], i, count);
+    const bool stop = !failure.empty() && s.scene->projection.on_limit == OnLimit::stop;
+    if (!failure.empty() && !stop) s.warning = failure;
+    if (broken(s) || stop) {
       if (i + 1 < count) s.state.U[0] = s.state.U[1], s.state.H[0] = s.state.H[1];
-      s.breakdown = locate_breakdown(s, i + 1);
+      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure};
       break;
     }
   }

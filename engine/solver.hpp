@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/clock.hpp"
+#include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
 
@@ -40,6 +41,7 @@ struct Simulation {
   std::vector<double> volume;             // [m^3] dual, mesh numbering
   Boundary boundary;
   State state;
+  Projection projection;                  // pFp only
   PartFunctions functions;
   Coefficients coefficients;
   std::vector<PartReport> reports;        // one a part
@@ -81,6 +83,9 @@ void advance(Simulation& s);
 
 /// The largest step that the scene's rule allows for the present state [s].
 double allowed_step(const Simulation& s);
+
+/// Bytes a node of everything that a step reads or writes.
+double bytes_per_node(const Simulation& s);
 
 /// Places with the smallest step: mesh nodes and their step [s], worst first.
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count);

@@ -56,18 +56,19 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
     if (n >= 0) s.step_length[r] = length[n];
   }
   for (int k = 0; k < 2; ++k) {
-    s.U[k].assign(row::U * rows, 0.0), s.W[k].assign(row::W * rows, 0.0), s.PH[k].assign(row::PH * rows, 0.0);
+    s.U[k].assign(row::U * rows, 0.0);
+    if (k == 0 || p.formulation != Formulation::pFp) s.W[k].assign(row::W * rows, 0.0), s.PH[k].assign(row::PH * rows, 0.0);
     if (p.formulation == Formulation::pFHJ) s.H[k].assign(row::H * rows, 0.0);
     for (std::size_t r = 0; r < rows; ++r) {
       double* U = &s.U[k][row::U * r];
-      U[3] = 1;
+      U[3] = p.formulation == Formulation::pFp ? 0 : 1;
       for (int I = 0; I < 3; ++I) {
         U[4 * (I + 1) + I] = 1, U[4 * (I + 1) + 3] = s.X[row::X * r + I];
         if (!s.H[k].empty()) s.H[k][row::H * r + 4 * I + I] = 1;
       }
     }
   }
-  if (p.reconstruction != Reconstruction::constant) s.G.assign(row::G * rows, 0.0);
+  if (p.reconstruction != Reconstruction::constant || p.formulation == Formulation::pFp) s.G.assign(row::G * rows, 0.0);
   if (p.flux_correction == FluxCorrection::full) s.Q.assign(row::Q * rows, 0.0);
   if (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear) s.GP.assign(row::GP * rows, 0.0);
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
@@ -106,8 +107,9 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   const PhysicsSpec& p = scene.physics;
   std::vector<std::string> out;
   if (p.formulation != Formulation::pFHJ) out.push_back("H (evolved only in pFHJ): 192 bytes");
-  if (p.formulation == Formulation::pF) out.push_back("evolution and stabilisation of J (pF): arithmetic only, its lanes would be padding");
-  if (p.reconstruction == Reconstruction::constant) out.push_back("gradients and their sweep (constant reconstruction): 96 bytes");
+  if (!evolves_J(p.formulation)) out.push_back("evolution and stabilisation of J (pF, pFp): arithmetic only, its lanes would be padding");
+  if (p.formulation != Formulation::pFp) out.push_back("projection (pFp): rows of edges and of its iteration");
+  if (p.reconstruction == Reconstruction::constant && p.formulation != Formulation::pFp) out.push_back("gradients and their sweep (constant reconstruction): 96 bytes");
   if (p.flux_correction != FluxCorrection::full) out.push_back("Q and its pass (flux_correction is not full): 96 bytes");
   if (p.pressure_jump == PressureJump::scalar) out.push_back("gradient of P (scalar pressure jump): 288 bytes");
   if (p.reconstruction != Reconstruction::limited) out.push_back("limiter (reconstruction is not limited): 32 bytes");

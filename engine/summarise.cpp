@@ -7,6 +7,18 @@
 
 namespace nanson {
 
+namespace {
+
+ProjectionSummary projection_summary(const Simulation& s) {
+  const ProjectionSpec& spec = s.scene->projection;
+  const Projection& p = s.projection;
+  const double stages = p.stages > 0 ? static_cast<double>(p.stages) : 1;
+  return {std::string(word(spec.solver)), spec.stabilisation, spec.drift_control, spec.tolerance, p.iterations, static_cast<double>(p.iterations) / stages,
+          static_cast<double>(p.rounds) / stages, p.residual, p.closed};
+}
+
+}  // namespace
+
 Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::string& status, const std::string& reason) {
   const Scene& scene = *s.scene;
   const PhysicsSpec& p = scene.physics;
@@ -20,7 +32,7 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
   out.t_end = s.t, out.dt_min = s.dt_min, out.dt_max = s.dt_max, out.threads = s.threads;
   out.wall_s = s.wall_s, out.cpu_s = s.cpu_s, out.setup_s = s.setup_s;
   out.ns_per_node_step = s.step > 0 ? 1e9 * s.wall_s / (static_cast<double>(s.step) * s.order.nodes) : 0;
-  out.bytes_per_node = bytes_per_node(s.state, s.order), out.fields_left_out = fields_left_out(scene), out.state_hash = state_hash(s);
+  out.bytes_per_node = bytes_per_node(s), out.fields_left_out = fields_left_out(scene), out.state_hash = state_hash(s);
   const Energies e = energies(s);
   out.energy.initial = s.ledger.initial_energy, out.energy.kinetic = e.kinetic, out.energy.strain = e.strain, out.energy.lost_at_start = s.ledger.lost_at_start;
   if (scene.monitor.energy)
@@ -39,7 +51,8 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
       probe(s, q.place, f, v);
       out.probes[q.spec.name][name].assign(v, v + f.components);
     }
-  out.sweeps = s.clock.sweeps;
+  out.sweeps = s.clock.sweeps, out.checkerboard = checkerboard(s);
+  if (p.formulation == Formulation::pFp) out.projection = projection_summary(s);
   return out;
 }
 
@@ -48,6 +61,7 @@ std::string closing_line(const Summary& s) {
                                  s.reconstruction, s.flux_correction, s.nodes, s.steps, s.wall_s, s.ns_per_node_step);
   for (const char* k : {"p1_L2", "P11_L2"})
     if (const auto at = s.errors.find(k); at != s.errors.end()) line += fmt::format(", {} {:.2e}", k, at->second);
+  if (s.projection) line += fmt::format(", {:.1f} {} iterations a stage", s.projection->iterations_per_stage, s.projection->solver);
   if (s.energy.closure) line += fmt::format(", energy closure {:.1e}", *s.energy.closure);
   return line;
 }

@@ -19,6 +19,16 @@ struct SweepTime {
   double seconds = 0;
 };
 
+/// What the projection of formulation pFp did.
+struct ProjectionSummary {
+  std::string solver;
+  double stabilisation = 0, drift_control = 0, tolerance = 0;
+  long iterations = 0;                                            // of the run
+  double iterations_per_stage = 0, solves_per_stage = 0;
+  double residual = 0;                                            // of the last stage, relative to the velocity gradient
+  bool closed = false;                                            // no free surface: the mean pressure is kept at 0
+};
+
 struct Summary {
   std::string status = "done";                                    // done | breakdown | stopped
   std::string reason;                                             // why it did not end as asked; empty when done
@@ -41,6 +51,8 @@ struct Summary {
   std::map<std::string, double> errors;                           // empty without an exact solution
   std::map<std::string, std::map<std::string, std::vector<double>>> probes;   // last values
   std::vector<SweepTime> sweeps;
+  double checkerboard = 0;                                        // [-] of the pressure, 0 smooth, 1 a checkerboard
+  std::optional<ProjectionSummary> projection;                    // pFp only
 };
 
 }  // namespace nanson

@@ -47,7 +47,7 @@ int check_scene(const Loaded& loaded, int threads) {
   else
     fmt::print("about {:.0f} steps of {:.3e} s; {:.0f} ns per node-step on {} threads: {} without output\n", steps, dt, 1e9 * seconds / s.order.nodes, s.threads,
                duration_text(steps * seconds));
-  fmt::print("memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s.state, s.order), 1e-6 * bytes_per_node(s.state, s.order) * s.order.nodes);
+  fmt::print("memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s), 1e-6 * bytes_per_node(s) * s.order.nodes);
   for (const std::string& f : loaded.scene.output.fields) fmt::print(" {}", f);
   fmt::print("\nnot paid for by this scene:\n");
   for (const std::string& f : fields_left_out(loaded.scene)) fmt::print("  {}\n", f);

@@ -57,7 +57,7 @@ void read_material(Table& t, MaterialSpec& m) {
   const bool law = read_kind<Law>(t, "law", m.law, true, {{Law::mooney_rivlin, {"xi"}}, {Law::hencky_j2, {"yield_stress", "hardening_modulus", "hardening"}}});
   t.require("density", m.density, {.above = 0});
   const bool young = t.require("youngs_modulus", m.youngs_modulus, {.above = 0});
-  const bool poisson = t.require("poissons_ratio", m.poissons_ratio, {.above = -1, .below = 0.5});
+  const bool poisson = t.require("poissons_ratio", m.poissons_ratio, {.above = -1, .to = 0.5});
   if (law && m.law == Law::mooney_rivlin && t.require("xi", m.xi, {.from = 0}) && young && poisson) {
     const double limit = m.youngs_modulus / (2 * (1 + m.poissons_ratio)) / (3 * std::sqrt(3.0));  // 2 zeta = mu - 3 sqrt(3) xi stays positive
     if (!(m.xi < limit)) t.fail("xi", fmt::format("must be below mu / (3 sqrt(3)) = {:.6g}", limit));

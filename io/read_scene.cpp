@@ -43,6 +43,7 @@ void read_root(Table& root, SceneResult& r, const fs::path& folder) {
   root.require_section("mesh", [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
   root.require_section("material", [&](Table& t) { read_material(t, s.material); });
   root.section("physics", [&](Table& t) { read_physics(t, s.physics); });
+  root.section("projection", [&](Table& t) { read_projection(t, s.projection); });
   root.section("initial", [&](Table& t) { read_initial(t, s.initial); });
   read_boundaries(root, s.boundary);
   root.section("body_force", [&](Table& t) { t.read("g", s.body_force); });

@@ -24,7 +24,7 @@ void print_start(const RunOptions& options, Simulation& s, const std::vector<Pro
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, set up in {:.2f} s, {:.0f} bytes a node", s.scene->name, s.order.nodes,
-                           s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads, s.threads == 1 ? "" : "s", s.setup_s, bytes_per_node(s.state, s.order)));
+                           s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads, s.threads == 1 ? "" : "s", s.setup_s, bytes_per_node(s)));
   say(options, fmt::format("start: mass {:.6g} kg, volume {:.6g} m^3, kinetic {:.6g} J, strain {:.6g} J, momentum ({:.4g}, {:.4g}, {:.4g}) kg m/s, angular momentum "
                            "({:.4g}, {:.4g}, {:.4g}) kg m^2/s",
                            s.ledger.mass, s.ledger.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2], m.angular[0], m.angular[1], m.angular[2]));

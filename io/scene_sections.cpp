@@ -122,6 +122,16 @@ void read_physics(Table& t, PhysicsSpec& p) {
     t.fail("stabilisation", fmt::format("jst has no reconstruction, flux_correction, pressure_jump, upwind_metric or entropy_fix to choose; {}", what_is_built));
 }
 
+void read_projection(Table& t, ProjectionSpec& p) {
+  if (read_kind<ProjectionSolver>(t, "solver", p.solver, false, {{ProjectionSolver::pseudo_time, {"length_scale"}}}) && p.solver == ProjectionSolver::pseudo_time)
+    t.require("length_scale", p.length_scale, {.above = 0});
+  t.read("stabilisation", p.stabilisation, {.from = 0});
+  t.read("drift_control", p.drift_control, {.from = 0, .to = 1});
+  t.read("tolerance", p.tolerance, {.above = 0, .below = 1});
+  t.read("max_iterations", p.max_iterations, {.from = 1});
+  t.read("on_limit", p.on_limit);
+}
+
 void read_initial(Table& t, InitialSpec& s) {
   using enum InitialField;
   read_kind<InitialField>(t, "field", s.field, false,
@@ -178,6 +188,37 @@ void read_monitor(Table& t, MonitorSpec& m) {
   t.read("energy_tolerance", m.energy_tolerance, {.above = 0});
 }
 
+namespace {
+
+/// What the incompressible scheme cannot be combined with, and what needs it.
+template <class At>
+void check_projection(const Scene& s, At at) {
+  const PhysicsSpec& p = s.physics;
+  if (p.formulation != Formulation::pFp) {
+    if (s.material.poissons_ratio == 0.5) at("material", "poissons_ratio", "must be below 0.5 unless physics.formulation = \"pFp\"");
+    for (const char* key : {"solver", "stabilisation", "drift_control", "length_scale", "tolerance", "max_iterations", "on_limit"})
+      at("projection", key, "is a key of physics.formulation = \"pFp\" only");
+    return;
+  }
+  const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view why) {
+    if (wrong) at(section, key, why);
+  };
+  refuse(s.material.law == Law::linear_elastic, "material", "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
+  refuse(s.material.volumetric != Volumetric::quadratic, "material", "volumetric", "formulation = \"pFp\" has the pressure for unknown, its energy p^2/(2 kappa) is \"quadratic\"");
+  refuse(s.material.isochoric == Isochoric::J, "material", "isochoric", "needs an evolved J, which formulation = \"pFp\" does not carry");
+  refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "is not built with formulation = \"pFp\", allowed: upwind");
+  refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "needs an evolved J, which formulation = \"pFp\" does not carry");
+  refuse(p.reconstruction == Reconstruction::limited, "physics", "reconstruction", "is not built with formulation = \"pFp\", allowed: constant | linear");
+  refuse(p.flux_correction != FluxCorrection::none, "physics", "flux_correction", "is not built with formulation = \"pFp\", allowed: none");
+  refuse(p.boundary_flux != BoundaryFlux::adjoint, "physics", "boundary_flux", "formulation = \"pFp\" needs \"adjoint\": the paper's makes the pressure's operator unsymmetric");
+  refuse(p.entropy_fix != EntropyFix::none, "physics", "entropy_fix", "is not built with formulation = \"pFp\", allowed: none");
+  refuse(p.keep_angular_momentum, "physics", "keep_angular_momentum", "is not built with formulation = \"pFp\", allowed: false");
+  refuse(s.time.integrator != Integrator::tvd_rk2, "time", "integrator", "is not built with formulation = \"pFp\", allowed: tvd_rk2");
+  refuse(s.time.step == StepRule::paper, "time", "step", "is not built with formulation = \"pFp\", allowed: dual | edge");
+}
+
+}  // namespace
+
 void check_together(Table& root, const Scene& s) {
   // A section is reached through a table of its own: what it does not read here was reported before.
   const auto at = [&](std::string_view section, std::string_view key, std::string_view why) {
@@ -190,6 +231,11 @@ void check_together(Table& root, const Scene& s) {
     if (s.initial.J == InitialJ::det) at("initial", "J", why);
     if (s.physics.pressure_jump == PressureJump::tensor) at("physics", "pressure_jump", why);
   }
+  if (sound("physics.formulation"))
+    check_projection(s, [&](std::string_view section, std::string_view key, std::string_view why) {
+      const auto* t = root.find(section) ? root.find(section)->as_table() : nullptr;
+      if (t && t->contains(key) && sound(fmt::format("{}.{}", section, key))) at(section, key, why);
+    });
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
     at("monitor", "energy", "audits the upwind stabilisation only, not jst");
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.entropy)

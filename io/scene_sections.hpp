@@ -11,6 +11,7 @@ namespace nanson {
 void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folder);
 void read_material(Table& t, MaterialSpec& m);
 void read_physics(Table& t, PhysicsSpec& p);
+void read_projection(Table& t, ProjectionSpec& p);
 void read_initial(Table& t, InitialSpec& s);
 void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary);
 void read_time_function(Table& t, TimeFunction& f);

@@ -74,6 +74,14 @@ toml::table provenance_table(const Provenance& from) {
                      {"host", from.host}};
 }
 
+/// Empty without a projection.
+toml::table projection_table(const std::optional<ProjectionSummary>& p) {
+  if (!p) return {};
+  return toml::table{{"solver", p->solver}, {"stabilisation", number(p->stabilisation)}, {"drift_control", number(p->drift_control)}, {"tolerance", number(p->tolerance)},
+                     {"iterations", p->iterations}, {"iterations_per_stage", number(p->iterations_per_stage)}, {"solves_per_stage", number(p->solves_per_stage)},
+                     {"residual", number(p->residual)}, {"closed", p->closed}};
+}
+
 toml::table summary_table(const Summary& s, const Provenance& from) {
   toml::table table{
       {"status", s.status}, {"reason", s.reason}, {"scene", s.scene}, {"formulation", s.formulation}, {"material", s.material},
@@ -87,6 +95,8 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
       {"angular_momentum_drift", number(s.angular_momentum_drift)},
       {"linear_momentum_drift", number(s.linear_momentum_drift)}, {"min_detF", number(s.min_detF)}, {"max_detF", number(s.max_detF)},
       {"probes", probes_table(s.probes)}, {"sweeps", sweeps_table(s.sweeps)}, {"provenance", provenance_table(from)}};
+  table.insert("checkerboard", number(s.checkerboard));
+  table.insert("projection", projection_table(s.projection));
   toml::table errors;
   for (const auto& [name, value] : s.errors) errors.insert(name, number(value));
   table.insert("errors", std::move(errors));

@@ -8,7 +8,7 @@ namespace nanson {
 
 /// Doubles in a row of each role. Rows are 32-byte multiples, arrays 64-byte aligned.
 namespace row {
-inline constexpr int U = 16;    // {v, J | columns of F, each with a component of x}
+inline constexpr int U = 16;    // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
 inline constexpr int H = 12;    // {columns of H, 0}, pFHJ only
 inline constexpr int W = 4;     // {v, Sigma_J}: what is reconstructed and swept
 inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}
@@ -134,6 +134,9 @@ void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, co
 template <Law, Volumetric, Isochoric, Formulation>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
+template <Law>
+PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
+
 /// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
 template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
@@ -141,5 +144,7 @@ double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const 
 /// Strain energy of a part's nodes in U_new, H_new [J].
 template <Law, Volumetric, Isochoric, Formulation>
 double strain_energy_part(const Part&, const Rows&, const Coefficients&);
+template <Law>
+double projected_energy_part(const Part&, const Rows&, const Coefficients&);
 
 }  // namespace nanson

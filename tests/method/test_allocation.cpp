@@ -66,6 +66,19 @@ TEST(Allocation, AStepAllocatesNothing) {
         }
 }
 
+TEST(Allocation, AProjectedStepAllocatesNothing) {
+  for (auto solver : {ProjectionSolver::cg, ProjectionSolver::pseudo_time})
+    for (int threads : {1, 2}) {
+      Scene scene = loaded_bar(3);
+      scene.physics.formulation = Formulation::pFp, scene.material.poissons_ratio = 0.5, scene.monitor.energy = true;
+      scene.projection.solver = solver, scene.projection.length_scale = 0.2;
+      const Problem problem(scene);
+      Simulation s = problem.start(threads);
+      EXPECT_EQ(allocations_of_three_steps(s), 0) << word(solver);
+      EXPECT_FALSE(s.breakdown);
+    }
+}
+
 TEST(Allocation, AStepOfSeveralPartsOnTwoThreadsAllocatesNothing) {
   const Problem problem(loaded_bar(9));
   Simulation s = problem.start(2);

@@ -9,7 +9,8 @@
 namespace nanson {
 namespace {
 
-constexpr double tolerance = 1e-13;  // relative to the largest value of each field
+constexpr double tolerance = 1e-13;      // relative to the largest value of each field
+constexpr double rare_tolerance = 1e-12;  // the limiter divides by small slopes
 
 Named name_of(const char* face) { return {face, ""}; }
 
@@ -62,7 +63,7 @@ void shake(Simulation& s) {
 double dissipation_of(Simulation& s) {
   State& u = s.state;
   Rows rows{};
-  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = u.G.data(), rows.Q = u.Q.data(), rows.GP = u.GP.data();
+  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = u.G.data(), rows.Q = u.Q.data(), rows.GP = u.GP.data(), rows.L = u.L.data();
   const auto edges = s.order.edges();
   const auto lists = s.order.lists();
   double power = 0;
@@ -78,7 +79,9 @@ double difference_after(const Scene& scene, const Mesh& mesh, int steps, int thr
   EXPECT_GE(fast.order.parts.size(), least_parts);
   shake(fast);
   NaiveLoop naive = make_naive_loop(fast);
-  EXPECT_NEAR(dissipation_of(fast) / naive_dissipation(naive), 1, 1e-12);
+  if (fast.functions.dissipation) {
+    EXPECT_NEAR(dissipation_of(fast) / naive_dissipation(naive), 1, 1e-12);
+  }
   fast.dt = 0.5 * allowed_step(fast);
   for (int i = 0; i < steps; ++i) {
     naive_advance(naive, fast.dt);
@@ -96,24 +99,35 @@ std::vector<Choice> all_of() {
   return all;
 }
 
+/// Options that do not multiply with the materials: one law each is enough, since no sweep but the stress knows one.
+bool is_rare(const PhysicsSpec& p) {
+  return p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none || p.stabilisation != Stabilisation::upwind;
+}
+
 /// Every set of sweeps that is built for a formulation.
 std::vector<PhysicsSpec> sweeps_of(Formulation formulation) {
   std::vector<PhysicsSpec> all;
-  for (auto reconstruction : all_of<Reconstruction>())
-    for (auto correction : all_of<FluxCorrection>())
-      for (auto jump : all_of<PressureJump>())
-        for (auto metric : all_of<UpwindMetric>())
-          for (auto boundary : all_of<BoundaryFlux>()) {
-            if (reconstruction == Reconstruction::constant && correction != FluxCorrection::none) continue;
-            if (formulation == Formulation::pF && jump == PressureJump::tensor) continue;  // pF has no jump of pressure
-            all.push_back({formulation, jump, reconstruction, correction, boundary, metric});
-          }
+  for (auto stabilisation : all_of<Stabilisation>())
+    for (auto jump : all_of<PressureJump>())
+      for (auto reconstruction : all_of<Reconstruction>())
+        for (auto correction : all_of<FluxCorrection>())
+          for (auto boundary : all_of<BoundaryFlux>())
+            for (auto metric : all_of<UpwindMetric>())
+              for (auto fix : all_of<EntropyFix>()) {
+                const PhysicsSpec p{formulation, stabilisation, jump, reconstruction, correction, boundary, metric, fix};
+                const bool tensor = jump == PressureJump::tensor;
+                if (reconstruction == Reconstruction::constant && correction != FluxCorrection::none) continue;
+                if (tensor && (formulation == Formulation::pF || is_rare(p))) continue;
+                if (stabilisation == Stabilisation::jst && (reconstruction != Reconstruction::linear || correction != FluxCorrection::none || fix != EntropyFix::none)) continue;
+                all.push_back(p);
+              }
   return all;
 }
 
 std::string text_of(const PhysicsSpec& p) {
   std::string out;
-  for (auto w : {word(p.formulation), word(p.pressure_jump), word(p.reconstruction), word(p.flux_correction), word(p.boundary_flux), word(p.upwind_metric)})
+  for (auto w : {word(p.formulation), word(p.stabilisation), word(p.pressure_jump), word(p.reconstruction), word(p.flux_correction), word(p.boundary_flux),
+                 word(p.upwind_metric), word(p.entropy_fix)})
     out += std::string(out.empty() ? "" : "_") + std::string(w);
   return out;
 }
@@ -146,9 +160,11 @@ TEST_P(Reference, EveryBuiltCombinationGivesTheNumbersOfThePlainLoop) {
   scene.material.law = c.law, scene.material.volumetric = c.volumetric, scene.material.isochoric = c.isochoric;
   if (c.law == Law::mooney_rivlin) scene.material.xi = 2e5;
   const Mesh mesh = mesh_of(scene);
+  const bool one_law = c.law == Law::neo_hookean && c.volumetric == Volumetric::quadratic && c.isochoric == Isochoric::F;
   for (const PhysicsSpec& p : sweeps_of(c.formulation)) {
+    if (is_rare(p) && !one_law) continue;
     scene.physics = p;
-    EXPECT_LT(difference_after(scene, mesh, 3, 1, 2), tolerance) << text_of(p);
+    EXPECT_LT(difference_after(scene, mesh, 3, 1, 2), is_rare(p) ? rare_tolerance : tolerance) << text_of(p);
   }
 }
 

@@ -48,7 +48,7 @@ TEST(CheckNames, ProbeOutsideTheMeshIsToldItsBox) {
 }
 
 TEST(Words, JoinedForReading) {
-  EXPECT_EQ(join_words(words(Formulation{})), "pF | pFJ | pFHJ");
+  EXPECT_EQ(join_words(words(Formulation{})), "pF | pFJ | pFHJ | pFp");
   EXPECT_EQ(join_words(std::vector<std::string>{"a", "b"}, ", "), "a, b");
   EXPECT_EQ(join_words(std::vector<std::string>{}), "");
 }

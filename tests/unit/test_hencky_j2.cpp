@@ -2,17 +2,18 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "engine/material.hpp"
 #include "kernels/materials/hencky_j2.hpp"
+#include "tests/unit/random_tensor.hpp"
 
 namespace nanson {
 namespace {
 
 using pF = Material<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pF>;
 using pFJ = Material<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>;
-using Random = std::mt19937_64;
+using pFHJ = Material<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pFHJ>;
+using test::product, test::random_rotation, test::Random, test::uniform;
 
 MaterialSpec copper() {
   MaterialSpec m;
@@ -28,34 +29,8 @@ MaterialConstants elastic() {
 
 PlasticState<double> virgin() { return {{{1, 1, 1, 0, 0, 0}}, 0}; }
 
-double uniform(Random& random, double size) { return size * (double(random() >> 11) * 0x1p-52 - 1); }
-
-Tensor<double> random_F(Random& random, double size) {
-  Tensor<double> F;
-  for (;;) {
-    for (int k = 0; k < 9; ++k) F.a[k / 3][k % 3] = (k % 4 == 0) + uniform(random, size);
-    if (determinant(F, cofactor(F)) > 0.2) return F;
-  }
-}
-
-Tensor<double> product(const Tensor<double>& A, const Tensor<double>& B) {
-  Tensor<double> C{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      for (int k = 0; k < 3; ++k) C[i][j] += A[i][k] * B[k][j];
-  return C;
-}
-
-/// About a random axis by a random angle.
-Tensor<double> random_rotation(Random& random) {
-  double q[4], size = 0;
-  for (double& x : q) x = uniform(random, 1), size += x * x;
-  for (double& x : q) x /= std::sqrt(size);
-  const auto [w, x, y, z] = std::array<double, 4>{q[0], q[1], q[2], q[3]};
-  return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
-           {2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)},
-           {2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)}}};
-}
+/// Stretches within `size` of 1.
+Tensor<double> random_F(Random& random, double size) { return test::random_F(random, 1 - size, 1 + size); }
 
 Tensor<double> stretch(double a, double b, double c) { return {{{a, 0, 0}, {0, b, 0}, {0, 0, c}}}; }
 
@@ -201,6 +176,9 @@ TEST(HenckyJ2, ElasticStressIsTheDerivativeOfTheEnergy) {
       EXPECT_NEAR((pFJ::energy(plus, 0.9, z, m) - pFJ::energy(minus, 0.9, z, m)) / (2 * h) / scale,
                   (b.stress.P.a[n / 3][n % 3] - b.stress.Sigma_J * b.stress.H.a[n / 3][n % 3]) / scale, 1e-8);
     }
+    Tensor<double> H = cofactor(F);
+    H[0][1] += 0.1;                                // evolved, and away from cof F
+    EXPECT_NEAR((pFHJ::stress(F, H, 0.9, a.mapping, m).P[0][1] - b.stress.P[0][1]) / (0.1 * b.stress.Sigma_J), 1, 1e-9);
     const double dU = (pFJ::energy(F, 0.9 + 1e-5, z, m) - pFJ::energy(F, 0.9 - 1e-5, z, m)) / 2e-5;
     EXPECT_NEAR(dU / b.stress.Sigma_J, 1, 1e-8);
     const double d2U = (evaluate<pFJ>(F, z, m, 0.9 + 1e-5).stress.Sigma_J - evaluate<pFJ>(F, z, m, 0.9 - 1e-5).stress.Sigma_J) / 2e-5;
@@ -218,7 +196,7 @@ TEST(HenckyJ2, SpeedBoundHoldsForRandomDirectionsAndIsExactAtRest) {
     const Tensor<double> F = random_F(random, k % 3 ? 0.4 : 0.05);
     const double bound = evaluate(F, z, m).stress.rho_c2, h = 1e-4;
     double w[3], N[3], w2 = 0, N2 = 0;
-    for (int i = 0; i < 3; ++i) w[i] = uniform(random, 1), N[i] = k % 5 ? uniform(random, 1) : w[i];
+    for (int i = 0; i < 3; ++i) w[i] = uniform(random, -1, 1), N[i] = k % 5 ? uniform(random, -1, 1) : w[i];
     for (int i = 0; i < 3; ++i) w2 += w[i] * w[i], N2 += N[i] * N[i];
     Tensor<double> plus = F, minus = F;
     for (int n = 0; n < 9; ++n) {

@@ -1,0 +1,60 @@
+// Allocation of the projection's rows, and whether the supports close the domain.
+#include "engine/projection.hpp"
+
+#include <cmath>
+
+namespace nanson {
+namespace {
+
+/// Whether the force of a constant pressure, -sum C_gamma at the undeformed boundary, is taken by the supports at every node.
+bool supports_close(const Order& o, const Boundary& boundary, const std::vector<std::int32_t>& held) {
+  constexpr double slack = 1e-2;  // directions closer than 1e-3 rad were joined
+  for (int n = 0; n < o.rows; ++n) {
+    double area[3] = {}, size = 0;
+    for (int g = o.corner[n]; g < o.corner[n + 1]; ++g) {
+      for (int k = 0; k < 3; ++k) area[k] += o.corner_C[k][g];
+      size += std::hypot(o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]);
+    }
+    if (held[n] >= 0) {
+      const Constraint& c = boundary.constraints[held[n]];
+      for (int m = 0; m < c.count; ++m) {
+        const double along = area[0] * c.d[m][0] + area[1] * c.d[m][1] + area[2] * c.d[m][2];
+        for (int k = 0; k < 3; ++k) area[k] -= along * c.d[m][k];
+      }
+    }
+    if (std::hypot(area[0], area[1], area[2]) > slack * size) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+Projection make_projection(const Scene& scene, const Order& order, const Boundary& boundary, const Aligned<double>& X, const MaterialConstants& material) {
+  Projection p;
+  if (scene.physics.formulation != Formulation::pFp) return p;
+  const std::size_t rows = static_cast<std::size_t>(order.rows);
+  p.parts = order.parts;
+  for (Part& part : p.parts)
+    while (part.node_end > part.node_begin && order.node_of[part.node_end - 1] < 0) --part.node_end;
+  p.E.assign(row::E * order.a.size(), 0.0), p.B.assign(row::B * order.corner_b.size(), 0.0);
+  p.H.assign(row::H * rows, 0.0), p.V.assign(row::V * rows, 0.0);
+  for (auto* v : {&p.volume[0], &p.volume[1], &p.taken[0], &p.taken[1], &p.fixed, &p.lag, &p.inverse_diagonal, &p.weight_sum, &p.R, &p.d, &p.Kd}) v->assign(rows, 0.0);
+  p.held.assign(rows, -1);
+  for (std::size_t i = 0; i < boundary.constraints.size(); ++i) p.held[boundary.constraints[i].node] = static_cast<std::int32_t>(i);
+  p.removed.assign(3 * boundary.constraints.size(), 0.0);
+  for (int n = 0; n < order.rows; ++n)
+    if (order.node_of[n] >= 0) p.total_volume += 1.0 / X[row::X * n + 3];
+  ProjectionCoefficients& k = p.coefficients;
+  k.rho = material.rho, k.inverse_kappa = 1.0 / material.kappa, k.beta_over_rho_cs = scene.projection.stabilisation / (material.rho * material.cs);
+  k.theta = scene.projection.drift_control, k.still = material.cs;
+  p.closed = k.inverse_kappa == 0 && supports_close(order, boundary, p.held);
+  return p;
+}
+
+std::size_t bytes(const Projection& p) {
+  std::size_t doubles = p.E.size() + p.B.size() + p.H.size() + p.V.size() + p.removed.size();
+  for (const auto* v : {&p.volume[0], &p.volume[1], &p.taken[0], &p.taken[1], &p.fixed, &p.lag, &p.inverse_diagonal, &p.weight_sum, &p.R, &p.d, &p.Kd}) doubles += v->size();
+  return 8 * doubles + 4 * p.held.size();
+}
+
+}  // namespace nanson
