@@ -26,9 +26,9 @@ void add_monitor_columns(const Scene& scene, std::vector<HistoryColumn>& c) {
   if (m.entropy) c.insert(c.end(), {{"entropy_min", "W"}, {"entropy_sum", "W"}, {"entropy_negative_share", "-"}});
   if (m.involutions) c.push_back({"involution_F", "-"});
   if (m.involutions && f == Formulation::pFHJ) c.push_back({"involution_H", "-"});
-  if (m.involutions && f != Formulation::pF) c.push_back({"involution_J", "-"});
+  if (m.involutions && evolves_J(f)) c.push_back({"involution_J", "-"});
   if (m.geometry) c.push_back({"min_tet_ratio", "-"});
-  if (m.geometry && f != Formulation::pF) c.insert(c.end(), {{"min_det_F_over_J", "-"}, {"max_det_F_over_J", "-"}});
+  if (m.geometry && evolves_J(f)) c.insert(c.end(), {{"min_det_F_over_J", "-"}, {"max_det_F_over_J", "-"}});
 }
 
 void add_monitor_values(Simulation& s, std::vector<double>& row) {
@@ -42,12 +42,12 @@ void add_monitor_values(Simulation& s, std::vector<double>& row) {
     const Involutions i = involutions(s);
     row.push_back(i.F);
     if (f == Formulation::pFHJ) row.push_back(i.H);
-    if (f != Formulation::pF) row.push_back(i.J);
+    if (evolves_J(f)) row.push_back(i.J);
   }
   if (m.geometry) {
     const Geometry g = geometry(s);
     row.push_back(g.min_tet_ratio);
-    if (f != Formulation::pF) row.insert(row.end(), {g.min_det_F_over_J, g.max_det_F_over_J});
+    if (evolves_J(f)) row.insert(row.end(), {g.min_det_F_over_J, g.max_det_F_over_J});
   }
 }
 

@@ -36,7 +36,7 @@ Geometry geometry(const Simulation& s) {
 #pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min : least_tet)
   for (int t = 0; t < tets; ++t) least_tet = std::min(least_tet, deformed_over_undeformed(s, s.mesh->tets[static_cast<std::size_t>(t)]));
   g.min_tet_ratio = least_tet;
-  if (s.scene->physics.formulation == Formulation::pF) return g;
+  if (!evolves_J(s.scene->physics.formulation)) return g;
   g.min_det_F_over_J = 1e300, g.max_det_F_over_J = -1e300;
   for (int n = 0; n < s.order.nodes; ++n) {
     const double ratio = det_F_over_J(U_row(s, n));

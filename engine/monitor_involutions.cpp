@@ -41,7 +41,7 @@ Involutions involutions(Simulation& s) {
   Involutions out;
   const std::vector<double> mismatch = gradient_mismatch(s);
   for (std::size_t i = 0; i < mismatch.size(); ++i) out.F = std::max(out.F, std::abs(mismatch[i] - s.initial_mismatch[i]));
-  if (s.scene->physics.formulation == Formulation::pF) return out;
+  if (!evolves_J(s.scene->physics.formulation)) return out;
   for (std::size_t r = 0; r < s.order.node_of.size(); ++r) {
     if (s.order.node_of[r] < 0) continue;
     const double* U = &s.state.U[0][row::U * r];

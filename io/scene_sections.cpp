@@ -206,6 +206,7 @@ void check_projection(const Scene& s, At at) {
   refuse(s.material.law == Law::linear_elastic, "material", "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
   refuse(s.material.volumetric != Volumetric::quadratic, "material", "volumetric", "formulation = \"pFp\" has the pressure for unknown, its energy p^2/(2 kappa) is \"quadratic\"");
   refuse(s.material.isochoric == Isochoric::J, "material", "isochoric", "needs an evolved J, which formulation = \"pFp\" does not carry");
+  refuse(s.monitor.entropy, "monitor", "entropy", "is not built with formulation = \"pFp\", which dissipates by its projection too");
   refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "is not built with formulation = \"pFp\", allowed: upwind");
   refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "needs an evolved J, which formulation = \"pFp\" does not carry");
   refuse(p.reconstruction == Reconstruction::limited, "physics", "reconstruction", "is not built with formulation = \"pFp\", allowed: constant | linear");

@@ -47,21 +47,18 @@ double relative_L1(const std::vector<double>& ours, const std::vector<double>& e
   return error / size;
 }
 
-/// How far the pressure leaves the range that the closed form has over r +- 3 cells, in shares of the front's jump: behind the front and ahead of it.
+/// How far the pressure leaves the range of the closed form, in shares of the front's jump: behind the front, and below the rest ahead of it.
 struct Overshoot {
   double behind = 0, ahead = 0;
 };
 
 Overshoot overshoot(const Profile& f) {
   const Blake exact;
+  const auto [least, most] = std::minmax_element(f.exact_pressure.begin(), f.exact_pressure.end());
   Overshoot out;
-  for (std::size_t k = 0; k < f.r.size(); ++k) {
-    double least = 1e300, most = -1e300;
-    for (std::size_t i = k < 3 ? 0 : k - 3; i <= std::min(k + 3, f.r.size() - 1); ++i)
-      least = std::min(least, f.exact_pressure[i]), most = std::max(most, f.exact_pressure[i]);
-    double& worst = f.r[k] > exact.front(f.end) ? out.ahead : out.behind;
-    worst = std::max({worst, (f.pressure[k] - most) / exact.jump(f.end), (least - f.pressure[k]) / exact.jump(f.end)});
-  }
+  for (std::size_t k = 0; k < f.r.size(); ++k)
+    if (f.r[k] > exact.front(f.end)) out.ahead = std::max(out.ahead, -f.pressure[k] / exact.jump(f.end));
+    else out.behind = std::max({out.behind, (f.pressure[k] - *most) / exact.jump(f.end), (*least - f.pressure[k]) / exact.jump(f.end)});
   return out;
 }
 
