@@ -20,6 +20,37 @@ std::string component(const FieldName& f, int c) {
   return fmt::format("_{}{}", c / 3 + 1, c % 3 + 1);
 }
 
+void add_monitor_columns(const Scene& scene, std::vector<HistoryColumn>& c) {
+  const MonitorSpec& m = scene.monitor;
+  const Formulation f = scene.physics.formulation;
+  if (m.entropy) c.insert(c.end(), {{"entropy_min", "W"}, {"entropy_sum", "W"}, {"entropy_negative_share", "-"}});
+  if (m.involutions) c.push_back({"involution_F", "-"});
+  if (m.involutions && f == Formulation::pFHJ) c.push_back({"involution_H", "-"});
+  if (m.involutions && evolves_J(f)) c.push_back({"involution_J", "-"});
+  if (m.geometry) c.push_back({"min_tet_ratio", "-"});
+  if (m.geometry && evolves_J(f)) c.insert(c.end(), {{"min_det_F_over_J", "-"}, {"max_det_F_over_J", "-"}});
+}
+
+void add_monitor_values(Simulation& s, std::vector<double>& row) {
+  const MonitorSpec& m = s.scene->monitor;
+  const Formulation f = s.scene->physics.formulation;
+  if (m.entropy) {
+    const EntropyProduction e = entropy_production(s);
+    row.insert(row.end(), {e.least, e.total, e.negative_share});
+  }
+  if (m.involutions) {
+    const Involutions i = involutions(s);
+    row.push_back(i.F);
+    if (f == Formulation::pFHJ) row.push_back(i.H);
+    if (evolves_J(f)) row.push_back(i.J);
+  }
+  if (m.geometry) {
+    const Geometry g = geometry(s);
+    row.push_back(g.min_tet_ratio);
+    if (evolves_J(f)) row.insert(row.end(), {g.min_det_F_over_J, g.max_det_F_over_J});
+  }
+}
+
 }  // namespace
 
 const FieldName& field_named(std::string_view name) {
@@ -42,6 +73,7 @@ std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vecto
   for (const char* k : axis) c.push_back({fmt::format("angular_momentum_{}", k), "kg m^2/s"});
   c.insert(c.end(), {{"min_det_F", "-"}, {"max_det_F", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
   if (!s.state.plastic.empty()) c.push_back({"max_plastic_strain", "-"});
+  add_monitor_columns(*s.scene, c);
   if (s.scene->physics.formulation == Formulation::pFp) c.insert(c.end(), {{"projection_iterations", "1/stage"}, {"projection_residual", "-"}});
   for (const std::string& face : s.boundary.held_faces)
     for (const char* k : axis) c.push_back({fmt::format("reaction_{}_{}", face, k), "N"});
@@ -64,6 +96,7 @@ std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes)
   row.insert(row.end(), m.angular.begin(), m.angular.end());
   row.insert(row.end(), {x.min_detF, x.max_detF, x.min_J, x.max_J, x.max_speed});
   if (!s.state.plastic.empty()) row.push_back(x.max_plastic_strain);
+  add_monitor_values(s, row);
   if (s.scene->physics.formulation == Formulation::pFp) row.insert(row.end(), {0.5 * static_cast<double>(s.projection.step_iterations), s.projection.residual});
   for (std::size_t face = 0; face < s.boundary.held_faces.size(); ++face) {
     const Vec3 R = reaction(s, static_cast<int>(face));

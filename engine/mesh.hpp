@@ -48,6 +48,10 @@ RawMesh make_box(const MeshSpec& spec);
 /// is the box's alternating one. Faces x0 y0 zmin zmax side, one region "cylinder". cells: tangential even, radial above m.
 RawMesh make_cylinder(const MeshSpec& spec);
 
+/// A needle of square cross-section along X between two spheres about the origin, in the box's alternating split: opposite sides are planes through the origin that
+/// meet at `angle`. Faces inner outer sides, one region "needle".
+RawMesh make_needle(const MeshSpec& spec);
+
 /// Orients, finds the boundary and checks. Errors (named by index from 0, each kind at most five times) are appended; the mesh is
 /// valid when none was. Named triangles between two tets are dropped: gmsh names interfaces of regions too.
 Mesh finish_mesh(RawMesh raw, std::vector<std::string>& errors);

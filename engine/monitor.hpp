@@ -19,9 +19,33 @@ struct Extrema {
   double max_plastic_strain = 0;                             // [-] hencky_j2
 };
 
+/// Power that the stabilisation takes out of the edges (method, section 3): negative where it feeds one.
+struct EntropyProduction {
+  double least = 0, total = 0;            // [W] of an edge, of all
+  double negative_share = 0;              // [-] of the edges
+};
+/// Largest components.
+struct Involutions {
+  double F = 0;                           // [-] change of F - grad x since the start, which is O(h^2) when F(0) is analytic
+  double H = 0, J = 0;                    // [-] H - cof F (pFHJ); J - det F (pFJ, pFHJ)
+};
+struct Geometry {
+  double min_tet_ratio = 1;                             // [-] smallest deformed over undeformed volume of a tet
+  double min_det_F_over_J = 1, max_det_F_over_J = 1;    // [-] pFJ, pFHJ
+};
+
 Energies energies(Simulation& s);
 Momenta momenta(Simulation& s);
 Extrema extrema(const Simulation& s);
+
+EntropyProduction entropy_production(Simulation& s);
+Involutions involutions(Simulation& s);
+Geometry geometry(const Simulation& s);
+
+/// F - grad x, 9 a row: what a run with monitor.involutions keeps of its start.
+std::vector<double> gradient_mismatch(Simulation& s);
+/// A sentence when det F/J has left 0.5 to 2.
+std::optional<std::string> geometry_warning(const Simulation& s);
 
 /// |kinetic + strain + dissipated - external_work - angular_momentum_work - initial| over the larger of the initial energy and the largest
 /// external work so far (method, section 11); needs monitor.energy.

@@ -13,7 +13,7 @@ namespace nanson {
 
 using Vec3 = std::array<double, 3>;
 
-enum class MeshSource { box, cylinder, file };
+enum class MeshSource { box, cylinder, needle, file };
 enum class Split { alternating, kuhn };
 enum class Sector { quarter };
 enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave, punch };
@@ -26,7 +26,7 @@ enum class EnergyGrowth { warn, stop };
 enum class ProjectionSolver { cg, pseudo_time };
 enum class OnLimit { stop, warn };
 
-constexpr auto words(MeshSource) { return std::array<std::string_view, 3>{"box", "cylinder", "file"}; }
+constexpr auto words(MeshSource) { return std::array<std::string_view, 4>{"box", "cylinder", "needle", "file"}; }
 constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
 constexpr auto words(Sector) { return std::array<std::string_view, 1>{"quarter"}; }
 constexpr auto words(InitialField) {
@@ -51,11 +51,13 @@ struct MeshSpec {
   MeshSource source = MeshSource::box;
   Vec3 origin{};                                   // [m] box
   Vec3 size{};                                     // [m] box
-  std::array<int, 3> cells{1, 1, 1};               // box: x y z; cylinder: radial tangential axial
+  std::array<int, 3> cells{1, 1, 1};               // box: x y z; cylinder: radial tangential axial; needle: across across radial
   Split split = Split::alternating;                // box
   double perturb = 0;                              // share of a cell by which inner nodes are moved, fixed seed; box
   double radius = 0, length = 0;                   // [m] cylinder, its axis from the origin along Z
   Sector sector = Sector::quarter;                 // cylinder: X >= 0, Y >= 0
+  double inner = 0, outer = 0;                     // [m] needle: radii, its axis from the origin along X
+  double angle = 0;                                // [deg] needle: between opposite sides
   Named file;                                      // file: path as resolved against the scene's folder
 };
 
@@ -158,6 +160,9 @@ struct OutputSpec {
 
 struct MonitorSpec {
   bool energy = false;
+  bool entropy = false;                            // production of every edge; upwind only
+  bool involutions = false;                        // F - grad x, H - cof F, J - det F
+  bool geometry = false;                           // tet volumes, det F/J
   EnergyGrowth energy_growth = EnergyGrowth::warn;
   double energy_tolerance = 0.01;                  // share of the initial energy
 };

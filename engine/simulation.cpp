@@ -118,6 +118,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   const Rows rows = start_rows(s, s.state.now);
   for_parts(s, [&](int p, Scratch) { s.reports[static_cast<std::size_t>(p)] = s.functions.stress(s.order.parts[static_cast<std::size_t>(p)], rows, s.coefficients, s.state.step_length.data()); });
   open_ledger(s);
+  if (scene.monitor.involutions) s.initial_mismatch = gradient_mismatch(s);
   s.setup_s = wall_seconds() - start;
   return s;
 }

@@ -123,6 +123,7 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
         return "breakdown";
       }
     }
+  if (s.scene->monitor.geometry && s.warning.empty() && s.step % s.scene->output.history_every == 0) s.warning = geometry_warning(s).value_or("");
   if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached";
   else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached";
   else if (asked_to_stop) reason = asked_to_stop();

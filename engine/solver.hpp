@@ -60,6 +60,7 @@ struct Simulation {
   std::vector<double> acceleration;       // [1/s] per boundary condition: rate of the time factor over the step
   std::vector<double> part_sums;          // one a part, for sums in a fixed order
   std::vector<std::array<double, part_row>> part_rows;  // several a part
+  std::vector<double> initial_mismatch;   // [-] monitor.involutions: F - grad x at the start, 9 a row
   Vec3 arm_origin{};                      // [m] keep_angular_momentum: what its arms are counted from
 };
 

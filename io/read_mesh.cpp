@@ -143,6 +143,11 @@ RawMesh read_file(const std::filesystem::path& msh, const std::string& name, std
   return {};
 }
 
+RawMesh make_mesh(const MeshSpec& spec) {
+  if (spec.source == MeshSource::cylinder) return make_cylinder(spec);
+  return spec.source == MeshSource::needle ? make_needle(spec) : make_box(spec);
+}
+
 }  // namespace
 
 RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>& errors) {
@@ -173,7 +178,7 @@ Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
     if (6 * nodes > std::numeric_limits<int>::max())
       problems.push_back(fmt::format("{:.3g} nodes are more than can be numbered: take fewer cells", nodes));
     else
-      mesh = finish_mesh(spec.source == MeshSource::box ? make_box(spec) : make_cylinder(spec), problems);
+      mesh = finish_mesh(make_mesh(spec), problems);
     for (const auto& problem : problems) errors.push_back(fmt::format("mesh.{}: {}", word(spec.source), problem));
     return mesh;
   }

@@ -67,8 +67,9 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
     if (!beside.empty()) t.fail(source, fmt::format("stands beside mesh.{}, exactly one of {} is allowed", beside, join_words(words(m.source))));
     else beside = source;
   }
-  if (beside.empty()) t.missing({"box", "cylinder", "file"}, fmt::format("mesh: exactly one of {} is needed", join_words(words(m.source))));
+  if (beside.empty()) t.missing({"box", "cylinder", "needle", "file"}, fmt::format("mesh: exactly one of {} is needed", join_words(words(m.source))));
   if (beside == "cylinder") m.source = MeshSource::cylinder;
+  if (beside == "needle") m.source = MeshSource::needle;
   if (beside == "file") m.source = MeshSource::file;
   t.section("box", [&](Table& b) {
     b.read("origin", m.origin);
@@ -79,11 +80,21 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
     c.require("length", m.length, {.above = 0});
     c.read("sector", m.sector);
   });
+  t.section("needle", [&](Table& n) {
+    const bool inner = n.require("inner", m.inner, {.above = 0}), outer = n.require("outer", m.outer, {.above = 0});
+    if (inner && outer && m.outer <= m.inner) n.fail("outer", fmt::format("must be above mesh.needle.inner, {:g}", m.inner));
+    n.require("angle", m.angle, {.above = 0, .to = 90});
+  });
   read_mesh_file(t, m, folder);
   if (m.source == MeshSource::file) return t.only("file", {}, std::array<std::string_view, 3>{"cells", "split", "perturb"});
   if (m.source == MeshSource::cylinder) {
     t.only("cylinder", {}, std::array<std::string_view, 2>{"split", "perturb"});
     return read_cylinder_cells(t, m);
+  }
+  if (m.source == MeshSource::needle) {
+    t.only("needle", {}, std::array<std::string_view, 2>{"split", "perturb"});
+    if (t.require("cells", m.cells, {.from = 1})) check_count(t, m.cells);
+    return;
   }
   if (t.read("cells", m.cells, {.from = 1})) check_count(t, m.cells);
   t.read("split", m.split);
@@ -170,6 +181,9 @@ void read_time(Table& t, TimeSpec& s) {
 
 void read_monitor(Table& t, MonitorSpec& m) {
   t.read("energy", m.energy);
+  t.read("entropy", m.entropy);
+  t.read("involutions", m.involutions);
+  t.read("geometry", m.geometry);
   t.read("energy_growth", m.energy_growth);
   t.read("energy_tolerance", m.energy_tolerance, {.above = 0});
 }
@@ -192,6 +206,7 @@ void check_projection(const Scene& s, At at) {
   refuse(s.material.law == Law::linear_elastic || s.material.law == Law::hencky_j2, "material", "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
   refuse(s.material.volumetric != Volumetric::quadratic, "material", "volumetric", "formulation = \"pFp\" has the pressure for unknown, its energy p^2/(2 kappa) is \"quadratic\"");
   refuse(s.material.isochoric == Isochoric::J, "material", "isochoric", "needs an evolved J, which formulation = \"pFp\" does not carry");
+  refuse(s.monitor.entropy, "monitor", "entropy", "is not built with formulation = \"pFp\", which dissipates by its projection too");
   refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "is not built with formulation = \"pFp\", allowed: upwind");
   refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "needs an evolved J, which formulation = \"pFp\" does not carry");
   refuse(p.reconstruction == Reconstruction::limited, "physics", "reconstruction", "is not built with formulation = \"pFp\", allowed: constant | linear");
@@ -224,6 +239,8 @@ void check_together(Table& root, const Scene& s) {
     });
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
     at("monitor", "energy", "audits the upwind stabilisation only, not jst");
+  if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.entropy)
+    at("monitor", "entropy", "counts the edges of the upwind stabilisation only, not of jst");
   if (sound("physics.keep_angular_momentum") && s.physics.keep_angular_momentum && sound("time.integrator") && s.time.integrator != Integrator::tvd_rk2)
     at("physics", "keep_angular_momentum", "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly");
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;

@@ -116,7 +116,7 @@ TEST(Scene, CylinderIsReadAndItsCellsAreChecked) {
       {"[3, 4, 5]", "[2, 4, 5]", "scene.toml:4:9: mesh.cells = [2, 4, 5]: the first number, 2 radial cells, must be above half the second, 2,"},
       {"cells = [3, 4, 5]", "", "scene.toml:2:1: mesh.cells: is missing"},
       {"cells", "split = \"kuhn\"\ncells", "scene.toml:4:9: mesh.split = \"kuhn\": is not a key of cylinder"},
-      {"cells", "box = { size = [1, 1, 1] }\ncells", "scene.toml:3:12: mesh.cylinder: stands beside mesh.box, exactly one of box | cylinder | file is allowed"},
+      {"cells", "box = { size = [1, 1, 1] }\ncells", "scene.toml:3:12: mesh.cylinder: stands beside mesh.box, exactly one of box | cylinder | needle | file is allowed"},
   });
 }
 

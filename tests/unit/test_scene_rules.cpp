@@ -54,6 +54,16 @@ TEST(Scene, NumbersStayInTheirRange) {
           {"0.25", "2"}, {"500", "0"}, {"60", "0"}, {"= 1\nprobes", "= 0\nprobes"}, {"= 1\nprobes", "= 9\nprobes"}, {"every = 10", "every = 1"}});
 }
 
+TEST(Scene, MonitorsAreOffUnlessAskedForAndRefusedWhereTheyMeanNothing) {
+  const SceneResult off = read_text(small_scene), on = read_text(with("[monitor]\nentropy = true\ninvolutions = true\ngeometry = true\n"));
+  EXPECT_FALSE(off.scene.monitor.entropy || off.scene.monitor.involutions || off.scene.monitor.geometry);
+  EXPECT_TRUE(on.errors.empty()) << joined(on.errors);
+  EXPECT_TRUE(on.scene.monitor.entropy && on.scene.monitor.involutions && on.scene.monitor.geometry);
+  const std::string jst = "[physics]\nstabilisation = \"jst\"\n";
+  expect_error(with(jst + "[monitor]\nentropy = true\n"), "scene.toml:14:11: monitor.entropy = true: counts the edges of the upwind stabilisation only, not of jst");
+  expect_valid(with(jst + "[monitor]\ninvolutions = true\ngeometry = true\n"));
+}
+
 TEST(Scene, ValuesHaveTheirType) {
   expect_each_refused(column_scene, {
       {"1100.0", "\"1100.0\"", "scene.toml:11:18: material.density = \"1100.0\": must be a number"},
@@ -113,7 +123,7 @@ TEST(Scene, MeshHasExactlyOneSource) {
   EXPECT_EQ(r.scene.mesh.file.name, (folder.path / "bar.msh").string());
   EXPECT_EQ(r.scene.mesh.file.where, (folder.path / "scene.toml").string() + ":3:8");
   expect(edited(file, "file =", "box = { size = [1, 1, 1] }\nfile ="),
-      "scene.toml:4:8: mesh.file = \"bar.msh\": stands beside mesh.box, exactly one of box | cylinder | file");
+      "scene.toml:4:8: mesh.file = \"bar.msh\": stands beside mesh.box, exactly one of box | cylinder | needle | file");
   expect(edited(file, "file =", "box = { size = [1, 1, 1] }\ncells = [2, 2, 2]\nfile ="),
       "scene.toml:5:8: mesh.file = \"bar.msh\": stands beside mesh.box");
   expect(edited(file, "bar.msh", "rod.msh"), "scene.toml:3:8: mesh.file = \"rod.msh\": there is no file " + (folder.path / "rod.msh").string());
