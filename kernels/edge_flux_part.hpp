@@ -47,7 +47,7 @@ template <Reconstruction reconstruction, FluxCorrection correction, bool evolves
 NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
   constexpr bool corrected = correction != FluxCorrection::none;
   constexpr int width = corrected ? 8 : 4;
-  constexpr int ahead = 16;  // edges whose neighbour rows are asked for in advance
+  constexpr int ahead = 32;  // edges whose neighbour rows are asked for in advance
   for (int a = part.node_begin; a < part.node_end; ++a) {
     const Vec4 Wa = load4(rows.W + row::W * a), Xa = load4(rows.X + row::X * a);
     const double* PHa = rows.PH + row::PH * a;
@@ -55,6 +55,7 @@ NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const 
     for (std::int32_t e = lists.out[a]; e < lists.out[a + 1]; ++e) {
       const std::int32_t b = edges.b[e], next = edges.b[e + ahead];  // the array is padded
       for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
+      __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
       if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);

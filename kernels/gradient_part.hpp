@@ -19,6 +19,8 @@ NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& co
 /// G_a = (1/Omega)[sum_b (W_b - W_a)/2 (x) C + sum_gamma (W_b + W_c - 2 W_a)/8 (x) C_gamma], W = {v, Sigma_J}: eq. (43a) with the (6,1,1)/8 rule (29)
 /// after the closure of the dual cell has been used, so that a constant field has the gradient zero bitwise. G [1/s] and [Pa/m].
 NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
+  constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
+  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.W + row::W * edges.b[e + ahead]);
   const Vec4 Wa = load4(rows.W + row::W * n);
   Vec4 g0{}, g1{}, g2{};
   around(
