@@ -84,7 +84,7 @@ std::vector<int> order_of_parts(const Graph& g, const std::vector<idx_t>& label,
 /// Mesh nodes of every part, in memory order.
 std::vector<std::vector<int>> ordered_parts(const Dual& dual, int nodes, bool& metis_failed) {
   Graph g = nodal_graph(dual, nodes);
-  int count = std::max(1, (nodes + part_size / 2) / part_size);
+  int count = std::max(1, (nodes + part_size(nodes) / 2) / part_size(nodes));
   std::vector<idx_t> label = metis_parts(g, nodes, count);
   std::vector<char> seen(static_cast<std::size_t>(nodes), 0);
   if (label.empty()) {  // one RCM numbering, cut into parts

@@ -44,7 +44,7 @@ NANSON_INLINE EdgeStabilisation edge_stabilisation(const Rows& rows, int a, int 
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums and differences of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
 template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
+NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* __restrict buffer) {
   constexpr bool corrected = correction != FluxCorrection::none;
   constexpr int width = corrected ? 8 : 4;
   constexpr int ahead = 32;  // edges whose neighbour rows are asked for in advance
