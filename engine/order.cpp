@@ -82,10 +82,11 @@ std::vector<int> order_of_parts(const Graph& g, const std::vector<idx_t>& label,
 }
 
 /// Mesh nodes of every part, in memory order.
-std::vector<std::vector<int>> ordered_parts(const Dual& dual, int nodes, bool& metis_failed) {
+std::vector<std::vector<int>> ordered_parts(const Dual& dual, int nodes, bool try_metis, bool& metis_failed) {
   Graph g = nodal_graph(dual, nodes);
   int count = std::max(1, (nodes + part_size(nodes) / 2) / part_size(nodes));
-  std::vector<idx_t> label = metis_parts(g, nodes, count);
+  std::vector<idx_t> label;
+  if (try_metis) label = metis_parts(g, nodes, count);
   std::vector<char> seen(static_cast<std::size_t>(nodes), 0);
   if (label.empty()) {  // one RCM numbering, cut into parts
     metis_failed = true;
@@ -181,10 +182,10 @@ void place_corners(Order& o, const Dual& dual) {
 
 }  // namespace
 
-Order make_order(const Dual& dual, int nodes) {
+Order make_order(const Dual& dual, int nodes, bool try_metis) {
   Order o;
   o.nodes = nodes;
-  number_rows(o, ordered_parts(dual, nodes, o.metis_failed));
+  number_rows(o, ordered_parts(dual, nodes, try_metis, o.metis_failed));
   place_edges(o, dual);
   place_corners(o, dual);
   for (auto& p : o.parts) {

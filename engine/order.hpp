@@ -34,6 +34,7 @@ struct Order {
   NodeLists lists() const { return {out.data(), in.data(), in_edges.data(), corner.data()}; }
 };
 
-Order make_order(const Dual& dual, int nodes);
+/// `try_metis` = false takes the road of a METIS that fails.
+Order make_order(const Dual& dual, int nodes, bool try_metis = true);
 
 }  // namespace nanson

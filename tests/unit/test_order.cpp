@@ -189,6 +189,23 @@ TEST(Order, IsTheSameForEveryThreadCountAndEveryTime) {
   omp_set_num_threads(before);
 }
 
+TEST(Order, WithoutMetisOneNumberingIsCutIntoPartsThatHoldEverything) {
+  const Ordered& with = many_parts();
+  const Order o = make_order(with.dual, static_cast<int>(with.mesh.X.size()), false);
+  EXPECT_TRUE(o.metis_failed);
+  ASSERT_EQ(o.parts.size(), with.order.parts.size());
+  std::set<int> nodes;
+  for (int r = 0; r < o.rows; ++r) {
+    if (o.node_of[r] < 0) continue;
+    EXPECT_TRUE(nodes.insert(o.node_of[r]).second);
+  }
+  EXPECT_EQ(nodes.size(), with.mesh.X.size());
+  std::set<std::pair<int, int>> edges;
+  for (int e = 0; e < o.out[o.rows]; ++e) edges.insert(std::minmax(o.node_of[o.a[e]], o.node_of[o.b[e]]));
+  EXPECT_EQ(edges.size(), with.dual.edges.size());
+  EXPECT_EQ(o.corner[o.rows], static_cast<int>(with.dual.corners.size()));
+}
+
 TEST(Order, NeighboursInAPartAreNearInMemory) {
   const Ordered& m = many_parts();
   const Order& o = m.order;
