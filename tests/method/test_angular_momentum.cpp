@@ -144,7 +144,7 @@ TEST(AngularMomentum, TheEnergyAuditClosesWithThePowerOfTheProjection) {
         residual[half] = energy_closure(kept.s);
         const double work = std::abs(kept.s.ledger.angular_momentum_work) / kept.s.ledger.initial_energy;
         RecordProperty(fmt::format("closure_{}_{}_{}", loaded, word(formulation), half), fmt::format("{:.2e}, work of the projection {:.2e}", residual[half], work));
-        EXPECT_GT(work, 10 * residual[1]) << "too little to be missed";
+        EXPECT_GT(work, 10 * residual[half]) << "too little to be missed";
       }
       EXPECT_LT(residual[0], 1e-3) << loaded << word(formulation);
       EXPECT_LT(residual[1], residual[0] / 3) << loaded << word(formulation);
