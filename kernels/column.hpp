@@ -31,6 +31,10 @@ NANSON_INLINE Vec4 spread(Vec4 v) {  // lane i in all lanes
 
 NANSON_INLINE Vec4 load4(const double* p) { return *reinterpret_cast<const Vec4*>(p); }  // p 32-byte aligned
 NANSON_INLINE Vec8 load8(const double* p) { return *reinterpret_cast<const Vec8*>(p); }  // p 64-byte aligned
+NANSON_INLINE Vec8 load8_anywhere(const double* p) {
+  typedef double Loose8 __attribute__((vector_size(64), aligned(8)));
+  return *reinterpret_cast<const Loose8*>(p);
+}
 NANSON_INLINE void store4(double* p, Vec4 v) { *reinterpret_cast<Vec4*>(p) = v; }
 NANSON_INLINE void store8(double* p, Vec8 v) { *reinterpret_cast<Vec8*>(p) = v; }
 

@@ -41,35 +41,84 @@ NANSON_INLINE EdgeStabilisation edge_stabilisation(const Rows& rows, int a, int 
   return {stabiliser<fix>(s, plain, d, c, cc), d};
 }
 
-/// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
-/// Only sums and differences of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* __restrict buffer) {
-  constexpr bool corrected = correction != FluxCorrection::none;
-  constexpr int width = corrected ? 8 : 4;
-  constexpr int ahead = 32;  // edges whose neighbour rows are asked for in advance
-  for (int a = part.node_begin; a < part.node_end; ++a) {
-    const Vec4 Wa = load4(rows.W + row::W * a), Xa = load4(rows.X + row::X * a);
+/// Edges in two passes: gathered one by one as columns, then finished eight at a time as lanes, so that roots and quotients are not waited for edge by edge.
+inline constexpr int edge_block = 64;
+struct EdgeBlock {
+  alignas(64) double tc[8 * edge_block];     // {P_ave C, 0 | H_ave C, 0} [N], [m^2]
+  alignas(64) double d[4 * edge_block];      // reconstructed jump of {v, Sigma_J}
+  alignas(64) double plain[4 * edge_block];  // nodal jump, entropy fix only
+  alignas(64) double y[4 * edge_block];      // (P+ - P-) C, tensor pressure jump only
+};
+
+/// First pass over edges [begin, end): central traction and area, jumps; q = (theta/4)(G_a - G_b) . D into the second half of the flux rows.
+template <Reconstruction reconstruction, FluxCorrection correction, PressureJump jump, EntropyFix fix>
+NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta, EdgeBlock& block, double* flux) {
+  constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
+  for (int e = begin; e < end; ++e) {
+    const std::int32_t a = edges.a[e], b = edges.b[e], next = edges.b[e + ahead];
+    for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
+    __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
+    if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
+    const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
-    for (std::int32_t e = lists.out[a]; e < lists.out[a + 1]; ++e) {
-      const std::int32_t b = edges.b[e], next = edges.b[e + ahead];  // the array is padded
-      for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
-      __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
-      if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
-      const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
-      const Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
-      const Vec4 c = high(tc), D = load4(rows.X + row::X * b) - Xa, plain = load4(rows.W + row::W * b) - Wa;
-      Vec4 t = low(tc);
-      if constexpr (correction == FluxCorrection::full) t = average_traction(rows.Q + row::Q * a, rows.Q + row::Q * b, C);
-      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edges.size[e], plain, D, c, k);
-      Vec4 along = broadcast4(u.s.along), q{};
-      if constexpr (corrected) q = difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * k.theta);
-      if constexpr (correction == FluxCorrection::pressure) along = along + spread<3>(q);
-      double* out = buffer + width * (e - part.edge_begin);
-      store4(out, fma(u.s.k, u.d, fma(along, c, t)));
-      if constexpr (corrected) store4(out + 4, q);
-    }
+    Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
+    if constexpr (correction == FluxCorrection::full) tc = concat(average_traction(rows.Q + row::Q * a, rows.Q + row::Q * b, C), high(tc));
+    const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
+    const int at = e - begin;
+    store8(block.tc + 8 * at, tc);
+    store4(block.d + 4 * at, reconstructed_jump<reconstruction>(rows, a, b, plain, D));
+    if constexpr (fix != EntropyFix::none) store4(block.plain + 4 * at, plain);
+    if constexpr (jump == PressureJump::tensor) store4(block.y + 4 * at, traction_jump<reconstruction>(rows, a, b, C, D));
+    if constexpr (correction != FluxCorrection::none)
+      store4(flux + 8 * at + 4, difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * theta));
+  }
+}
+
+/// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`.
+template <FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, const double* size, const Coefficients& k, double* flux) {
+  constexpr int width = correction != FluxCorrection::none ? 8 : 4;
+  const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
+  Vec8 t[4], c[4], d[4], plain[4]{}, y[4], q[4];
+  load_transposed(block.tc + 8 * at, 8, t[0], t[1], t[2], t[3]);
+  load_transposed(block.tc + 8 * at + 4, 8, c[0], c[1], c[2], c[3]);
+  load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
+  if constexpr (fix != EntropyFix::none) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
+  const Vec8 cc = dot(c, c);
+  EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, load8_anywhere(size), k.rho_cp, k.rho_cs);
+  if constexpr (!evolves_J) s.volume = Vec8{};
+  if constexpr (evolves_J && jump == PressureJump::tensor) {
+    load_transposed(block.y + 4 * at, 4, y[0], y[1], y[2], y[3]);
+    d[3] = dot(c, y), s.volume = s.volume / cc;
+  }
+  StabiliserOf<Vec8> u = stabiliser<fix, Vec8>(s, cc, dot(c, d), dot(c, plain), dot(d, plain), d[3] * plain[3]);
+  if constexpr (correction == FluxCorrection::pressure) {
+    load_transposed(flux + 4, width, q[0], q[1], q[2], q[3]);
+    u.along = u.along + q[3];
+  }
+  Vec8 f[3];
+  for (int i = 0; i < 3; ++i) f[i] = fma(u.shear, d[i], fma(u.along, c[i], t[i]));
+  store_transposed(flux, width, f[0], f[1], f[2], u.volume * d[3]);
+}
+
+/// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
+/// Only sums, differences and products of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
+/// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone.
+template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
+  constexpr int width = correction != FluxCorrection::none ? 8 : 4;
+  EdgeBlock block{};
+  alignas(64) double last[width * edge_block];  // the last block's rows: lanes beyond the part's edges must not reach the buffer
+  for (int begin = part.edge_begin; begin < part.edge_end; begin += edge_block) {
+    const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
+    double* out = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
+    double* flux = count < edge_block ? last : out;
+    gather_edges<reconstruction, correction, jump, fix>(begin, begin + count, edges, rows, k.theta, block, flux);
+    for (int at = 0; at < count; at += 8)
+      finish_edges<correction, evolves_J, jump, metric, fix>(block, at, edges.size + begin + at, k, flux + width * at);
+    if (count < edge_block)
+      for (int i = 0; i < width * count; i += 4) store4(out + i, load4(last + i));
   }
 }
 
@@ -118,7 +167,7 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
 template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
 void edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                     const Scratch& scratch) {
-  edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix>(part, edges, lists, rows, k, scratch.edge);
+  edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix>(part, edges, rows, k, scratch.edge);
   corner_forces<correction>(part, corners, lists, rows, k, scratch.edge);
 }
 

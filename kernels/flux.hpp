@@ -8,36 +8,50 @@ namespace nanson {
 /// Stabilisation of one edge, before it meets the jump: D^p = shear d + normal (c . d) c with d the jump of v, D^J = volume (jump of Sigma_J).
 /// c = H_ave C; size = |C|; cn = c_p-scale of the normal part times |C|: |C| (paper) or max(|C|, |c|), that is c_p max(1, |H_ave N|) (deformed).
 /// D^p = 1/2 [rho cs |C| d + (rho cp cn - rho cs |C|) (c.d)/(c.c) c] (eq. 36a, 37, 41); D^J = (Sigma+ - Sigma-) c.c / (2 rho cp cn) (Remark 4, eq. 42).
-struct EdgeCoefficients {
-  double shear;   // [kg/s]
-  double normal;  // [kg/(m^4 s)]
-  double volume;  // [m^3/(Pa s)]
+/// One edge (double) or eight as lanes (Vec8).
+template <class Real>
+struct EdgeCoefficientsOf {
+  Real shear;   // [kg/s]
+  Real normal;  // [kg/(m^4 s)]
+  Real volume;  // [m^3/(Pa s)]
 };
+using EdgeCoefficients = EdgeCoefficientsOf<double>;
 
-template <UpwindMetric metric>
-NANSON_INLINE EdgeCoefficients edge_coefficients(double cc, double size, double rho_cp, double rho_cs) {
-  double cn = size;
+template <UpwindMetric metric, class Real>
+NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, double rho_cp, double rho_cs) {
+  Real cn = size;
   if constexpr (metric == UpwindMetric::deformed) cn = larger(size, root(cc));
-  const double inverse = 1.0 / (cc * cn);
-  const double shear = 0.5 * (rho_cs * size);
-  return {shear, fma(0.5 * rho_cp, cn, -shear) * (inverse * cn), (0.5 / rho_cp) * (cc * cc) * inverse};
+  const Real inverse = 1.0 / (cc * cn);
+  const Real shear = 0.5 * (rho_cs * size);
+  return {shear, fma(Real{} + 0.5 * rho_cp, cn, -shear) * (inverse * cn), (0.5 / rho_cp) * (cc * cc) * inverse};
 }
 
-/// What multiplies the jump d = {v, Sigma_J}: {D^p, D^J} = k d + along c.
+/// What multiplies the jump d = {v, Sigma_J}: D^p = shear d + along c, D^J = volume d_3.
+template <class Real>
+struct StabiliserOf {
+  Real shear, volume, along;
+};
+
+/// The entropy fix drops the normal or the tangential part of D^p, and D^J, where the reconstructed jump d opposes the plain one (method, section 3).
+/// From the products c.d, c.plain and d.plain of the velocity jumps, and that of the pressure jumps.
+template <EntropyFix fix, class Real>
+NANSON_INLINE StabiliserOf<Real> stabiliser(const EdgeCoefficientsOf<Real>& s, Real cc, Real cd, Real c_plain, Real d_plain, Real pressure_product) {
+  if constexpr (fix == EntropyFix::none) return {s.shear, s.volume, s.normal * cd};
+  const Real zero{}, cd_cc = cd / cc, tangential = d_plain - cd_cc * c_plain;
+  const Real shear = choose(tangential < 0.0, zero, s.shear), volume = choose(pressure_product < 0.0, zero, s.volume);
+  const Real normal = choose(cd * c_plain < 0.0, zero, fma(s.normal, cd, s.shear * cd_cc));
+  return {shear, volume, fma(-shear, cd_cc, normal)};
+}
+
+/// The same for one edge as a column: {D^p, D^J} = k d + along c.
 struct Stabiliser {
   Vec4 k;
   double along;
 };
-
-/// The entropy fix drops the normal or the tangential part of D^p, and D^J, where the reconstructed jump d opposes the plain one (method, section 3).
 template <EntropyFix fix>
 NANSON_INLINE Stabiliser stabiliser(const EdgeCoefficients& s, Vec4 plain, Vec4 d, Vec4 c, double cc) {
-  const double cd = dot3(c, d)[0];
-  if constexpr (fix == EntropyFix::none) return {Vec4{s.shear, s.shear, s.shear, s.volume}, s.normal * cd};
-  const double c_plain = dot3(c, plain)[0], inverse = 1.0 / cc, tangential = dot3(d, plain)[0] - cd * c_plain * inverse;
-  const double shear = tangential < 0 ? 0.0 : s.shear, volume = d[3] * plain[3] < 0 ? 0.0 : s.volume;
-  const double normal = cd * c_plain < 0 ? 0.0 : fma(s.normal, cd, s.shear * (cd * inverse));
-  return {Vec4{shear, shear, shear, volume}, fma(-shear, cd * inverse, normal)};
+  const StabiliserOf<double> u = stabiliser<fix, double>(s, cc, dot3(c, d)[0], dot3(c, plain)[0], dot3(d, plain)[0], d[3] * plain[3]);
+  return {Vec4{u.shear, u.shear, u.shear, u.volume}, u.along};
 }
 
 /// Central traction and area of an edge: {P_ave C | H_ave C} from the {P|H} columns of both ends.
