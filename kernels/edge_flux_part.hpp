@@ -59,6 +59,9 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
     __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
     if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
+    if constexpr (correction == FluxCorrection::full) __builtin_prefetch(rows.Q + row::Q * next), __builtin_prefetch(rows.Q + row::Q * next + 8);
+    if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
+      for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
     const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};

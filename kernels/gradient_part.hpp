@@ -16,11 +16,27 @@ NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& co
   for (std::int32_t k = lists.corner[n]; k < lists.corner[n + 1]; ++k) corner(corners.b[k], corners.c[k], corners.C[0][k], corners.C[1][k], corners.C[2][k]);
 }
 
+/// Asks for the rows of the other ends of the node's out-edges, some edges in advance (the array is padded): those of in-edges are the part's own.
+NANSON_INLINE void prefetch_W(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
+  constexpr int ahead = 60;
+  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.W + row::W * edges.b[e + ahead]);
+}
+NANSON_INLINE void prefetch_X(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
+  constexpr int ahead = 60;
+  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.X + row::X * edges.b[e + ahead]);
+}
+NANSON_INLINE void prefetch_stress(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
+  constexpr int ahead = 40;
+  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
+    const std::int32_t next = edges.b[e + ahead];
+    for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
+  }
+}
+
 /// G_a = (1/Omega)[sum_b (W_b - W_a)/2 (x) C + sum_gamma (W_b + W_c - 2 W_a)/8 (x) C_gamma], W = {v, Sigma_J}: eq. (43a) with the (6,1,1)/8 rule (29)
 /// after the closure of the dual cell has been used, so that a constant field has the gradient zero bitwise. G [1/s] and [Pa/m].
 NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
-  constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
-  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.W + row::W * edges.b[e + ahead]);
+  prefetch_W(n, edges, lists, rows);
   const Vec4 Wa = load4(rows.W + row::W * n);
   Vec4 g0{}, g1{}, g2{};
   around(
@@ -40,6 +56,7 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
 
 /// Gradient of the stress, dP_iI/dX_K [Pa/m], by the same rule; K-major as in row::GP.
 NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, Vec4 (&g)[3][3]) {
+  prefetch_stress(n, edges, lists, rows);
   const double* Pa = rows.PH + row::PH * n;
   for (auto& gk : g)
     for (auto& gki : gk) gki = Vec4{};
@@ -62,32 +79,56 @@ NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArr
     for (auto& gki : gk) gki = gki * half_inverse;
 }
 
-/// Nodal stress of the full flux correction, Q_a = P_a + theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14).
+/// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP, and the nodal stress of the full flux correction,
+/// Q_a = P_a + theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14). One visit of the neighbours: sum_b C_I D_K D_L is taken
+/// beside the differences and meets the gradient of P when that is known.
 NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, double theta,
-                                    const Vec4 (&g)[3][3]) {
+                                    Vec4 (&g)[3][3]) {
+  prefetch_W(n, edges, lists, rows), prefetch_X(n, edges, lists, rows);
+  prefetch_stress(n, edges, lists, rows);
   const double* Pa = rows.PH + row::PH * n;
-  const Vec4 Xa = load4(rows.X + row::X * n);
+  const Vec4 Xa = load4(rows.X + row::X * n), Wa = load4(rows.W + row::W * n), P[3] = {load4(Pa), load4(Pa + 8), load4(Pa + 16)};
+  Vec8 g01[3] = {}, g2W[3] = {}, CDD[3] = {};  // CDD[I]: C_I {D_0 D_0, D_0 D_1, D_0 D_2, D_1 D_1, D_1 D_2, D_2 D_2}
   Vec4 q[3] = {};
+  const auto add = [&](Vec4 d0, Vec4 d1, Vec4 d2, Vec4 dW, const double(&C)[3]) {
+    const Vec8 d01 = concat(d0, d1), d2W = concat(d2, dW);
+    for (int K = 0; K < 3; ++K) g01[K] = fma(d01, broadcast8(C[K]), g01[K]), g2W[K] = fma(d2W, broadcast8(C[K]), g2W[K]);
+  };
   around(
       n, edges, corners, lists,
       [&](int b, double C0, double C1, double C2) {
-        const Vec4 D = load4(rows.X + row::X * b) - Xa, D0 = spread<0>(D), D1 = spread<1>(D), D2 = spread<2>(D);
-        const double C[3] = {C0, C1, C2};
-        Vec4 y{};
-        for (int I = 0; I < 3; ++I) {
-          Vec4 r = load4(Pa + 8 * I) - load4(rows.PH + row::PH * b + 8 * I);
-          r = fma(g[0][I], D0, r), r = fma(g[1][I], D1, r), r = fma(g[2][I], D2, r);
-          y = fma(r, broadcast4(C[I]), y);
-        }
-        q[0] = fma(y, D0, q[0]), q[1] = fma(y, D1, q[1]), q[2] = fma(y, D2, q[2]);
+        const double *Pb = rows.PH + row::PH * b, C[3] = {C0, C1, C2};
+        const Vec4 D = load4(rows.X + row::X * b) - Xa, d0 = load4(Pb) - P[0], d1 = load4(Pb + 8) - P[1], d2 = load4(Pb + 16) - P[2];
+        add(d0, d1, d2, load4(rows.W + row::W * b) - Wa, C);
+        const Vec4 y = fma(d2, broadcast4(C2), fma(d1, broadcast4(C1), d0 * broadcast4(C0)));
+        q[0] = fma(y, spread<0>(D), q[0]), q[1] = fma(y, spread<1>(D), q[1]), q[2] = fma(y, spread<2>(D), q[2]);
+        const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
+        for (int I = 0; I < 3; ++I) CDD[I] = fma(DD, broadcast8(C[I]), CDD[I]);
       },
-      [](int, int, double, double, double) {});
-  const Vec4 scale = broadcast4(0.25 * theta * rows.X[row::X * n + 3]);
-  for (int I = 0; I < 3; ++I) store4(rows.Q + row::Q * n + 4 * I, fma(q[I], scale, load4(Pa + 8 * I)));
+      [&](int b, int c, double C0, double C1, double C2) {
+        const double *Pb = rows.PH + row::PH * b, *Pc = rows.PH + row::PH * c, *Wb = rows.W + row::W * b, *Wc = rows.W + row::W * c, C[3] = {C0, C1, C2};
+        const auto mean = [](Vec4 a, const double* b, const double* c) { return ((load4(b) - a) + (load4(c) - a)) * 0.25; };
+        add(mean(P[0], Pb, Pc), mean(P[1], Pb + 8, Pc + 8), mean(P[2], Pb + 16, Pc + 16), mean(Wa, Wb, Wc), C);
+      });
+  const double inverse = rows.X[row::X * n + 3];
+  const Vec8 half_inverse = broadcast8(0.5 * inverse);
+  for (int K = 0; K < 3; ++K) {
+    const Vec8 a = g01[K] * half_inverse, b = g2W[K] * half_inverse;
+    g[K][0] = low(a), g[K][1] = high(a), g[K][2] = low(b);
+    store4(rows.G + row::G * n + 4 * K, high(b));
+  }
+  constexpr int lane[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  for (int L = 0; L < 3; ++L) {
+    Vec4 sum = -q[L];
+    for (int K = 0; K < 3; ++K)
+      for (int I = 0; I < 3; ++I) sum = fma(g[K][I], broadcast4(CDD[I][lane[K][L]]), sum);
+    store4(rows.Q + row::Q * n + 4 * L, fma(sum, broadcast4(0.25 * theta * inverse), P[L]));
+  }
 }
 
 /// Row L of a node: the limiter of its reconstruction (method, section 4).
 NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
+  prefetch_X(n, edges, lists, rows);
   const Vec4 Wa = load4(rows.W + row::W * n), Xa = load4(rows.X + row::X * n);
   const double* G = rows.G + row::G * n;
   Vec4 above{}, below{}, rise{}, fall{};
@@ -103,6 +144,7 @@ NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& c
 
 /// Row L of a node: pseudo-Laplacian sum_b (1 + lambda . D)(W_b - W_a), W = {v, J}; zero for linear fields (method, section 9).
 NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
+  prefetch_X(n, edges, lists, rows);
   const Vec4 Wa = load4(rows.W + row::W * n), Xa = load4(rows.X + row::X * n), lambda = load4(rows.lambda + row::lambda * n);
   Vec4 sum{};
   around(
@@ -118,16 +160,16 @@ NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const Corner
 template <bool tensor_jump, bool full_correction, NodeWeights weights>
 void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    gradient_of_W(n, edges, corners, lists, rows);
+    Vec4 gradient_P[3][3];
+    if constexpr (full_correction)
+      corrected_stress(n, edges, corners, lists, rows, k.theta, gradient_P);
+    else
+      gradient_of_W(n, edges, corners, lists, rows);
+    if constexpr (tensor_jump && !full_correction) gradient_of_P(n, edges, corners, lists, rows, gradient_P);
+    if constexpr (tensor_jump)
+      for (int m = 0; m < 9; ++m) store4(rows.GP + row::GP * n + 4 * m, gradient_P[m / 3][m % 3]);
     if constexpr (weights == NodeWeights::limiter) limiter(n, edges, corners, lists, rows);
     if constexpr (weights == NodeWeights::laplacian) pseudo_laplacian(n, edges, corners, lists, rows);
-    if constexpr (tensor_jump || full_correction) {
-      Vec4 g[3][3];
-      gradient_of_P(n, edges, corners, lists, rows, g);
-      if constexpr (tensor_jump)
-        for (int m = 0; m < 9; ++m) store4(rows.GP + row::GP * n + 4 * m, g[m / 3][m % 3]);
-      if constexpr (full_correction) corrected_stress(n, edges, corners, lists, rows, k.theta, g);
-    }
   }
 }
 
