@@ -402,7 +402,7 @@ void find_lambda(NaiveLoop& n) {
 void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_row) {
   for (int r = 0; r < o.rows; ++r) {
     for (std::int32_t e = o.out[r]; e < o.out[r + 1]; ++e)
-      if (o.b[e] > r) n.edges.push_back({node_of_row[r], node_of_row[o.b[e]], {o.C[0][e], o.C[1][e], o.C[2][e]}, o.size[e]});
+      if (o.b[e] > r) n.edges.push_back({node_of_row[r], node_of_row[o.b[e]], {o.C[0][e], o.C[1][e], o.C[2][e]}, std::hypot(o.C[0][e], o.C[1][e], o.C[2][e])});
     for (std::int32_t g = o.corner[r]; g < o.corner[r + 1]; ++g)
       n.corners.push_back({node_of_row[r], node_of_row[o.corner_b[g]], node_of_row[o.corner_c[g]], {o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]}});
   }

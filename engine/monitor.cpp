@@ -132,7 +132,7 @@ double checkerboard(Simulation& s) {
           length2 += D * D;
           if (left_over) d -= 0.5 * D * (rows.G[row::G * a + 4 * k + 3] + rows.G[row::G * b + 4 * k + 3]);
         }
-        part_sum += edges.size[e] / std::sqrt(length2) * d * d;
+        part_sum += edge_size(edges, e) / std::sqrt(length2) * d * d;
       }
       return part_sum;
     });

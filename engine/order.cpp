@@ -144,7 +144,7 @@ void place_edges(Order& o, const Dual& dual) {
   std::vector<int> next(o.out.begin(), o.out.end() - 1);
   visit([&](int a, int b, int e, bool flipped) { halves[next[a]++] = {b, e, flipped}; });
   const std::size_t count = halves.size(), padding = 64;  // prefetching reads ahead of the last edge
-  o.a.assign(count + padding, 0), o.b.assign(count + padding, 0), o.size.assign(count + padding, 0);
+  o.a.assign(count + padding, 0), o.b.assign(count + padding, 0);
   for (auto& C : o.C) C.assign(count + padding, 0);
   o.in.assign(static_cast<std::size_t>(o.rows) + 1, 0);
   for (int a = 0; a < o.rows; ++a) {
@@ -154,7 +154,6 @@ void place_edges(Order& o, const Dual& dual) {
       const Vec3& C = dual.edges[h.edge].C;
       o.a[i] = a, o.b[i] = h.b;
       for (int k = 0; k < 3; ++k) o.C[k][i] = h.flipped ? -C[k] : C[k];
-      o.size[i] = std::sqrt(C[0] * C[0] + C[1] * C[1] + C[2] * C[2]);
       if (part_of[a] == part_of[h.b]) ++o.in[h.b + 1];
     }
   }

@@ -22,14 +22,14 @@ struct Order {
   bool metis_failed = false;                // parts of one RCM numbering were cut instead
 
   Aligned<std::int32_t> a, b;               // edges
-  Aligned<double> C[3], size;
+  Aligned<double> C[3];
   Aligned<std::int32_t> out, in, in_edges, corner;   // node lists
   Aligned<std::int32_t> corner_b, corner_c, corner_load;
   Aligned<double> corner_C[3];
   std::vector<int> corner_face;             // corner -> index into Mesh::faces
   int most_nodes = 0, most_rows = 0;        // largest part: nodes, rows of its edge buffer
 
-  EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, size.data()}; }
+  EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}}; }
   CornerArrays corners() const { return {corner_b.data(), corner_c.data(), {corner_C[0].data(), corner_C[1].data(), corner_C[2].data()}, corner_load.data()}; }
   NodeLists lists() const { return {out.data(), in.data(), in_edges.data(), corner.data()}; }
 };

@@ -80,7 +80,7 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
 
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`.
 template <FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, const double* size, const Coefficients& k, double* flux) {
+NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, const Coefficients& k, double* flux) {
   constexpr int width = correction != FluxCorrection::none ? 8 : 4;
   const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
   Vec8 t[4], c[4], d[4], plain[4]{}, y[4], q[4];
@@ -89,7 +89,7 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, const double* si
   load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
   if constexpr (fix != EntropyFix::none) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
   const Vec8 cc = dot(c, c);
-  EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, load8_anywhere(size), k.rho_cp, k.rho_cs);
+  EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, size, k.rho_cp, k.rho_cs);
   if constexpr (!evolves_J) s.volume = Vec8{};
   if constexpr (evolves_J && jump == PressureJump::tensor) {
     load_transposed(block.y + 4 * at, 4, y[0], y[1], y[2], y[3]);
@@ -119,7 +119,7 @@ NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const R
     double* flux = count < edge_block ? last : out;
     gather_edges<reconstruction, correction, jump, fix>(begin, begin + count, edges, rows, k.theta, block, flux);
     for (int at = 0; at < count; at += 8)
-      finish_edges<correction, evolves_J, jump, metric, fix>(block, at, edges.size + begin + at, k, flux + width * at);
+      finish_edges<correction, evolves_J, jump, metric, fix>(block, at, edge_sizes(edges, begin + at), k, flux + width * at);
     if (count < edge_block)
       for (int i = 0; i < width * count; i += 4) store4(out + i, load4(last + i));
   }
@@ -138,7 +138,7 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
       const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
       const Vec4 c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
       const Vec4 plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a), D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a);
-      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edges.size[e], plain, D, c, k);
+      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edge_size(edges, e), plain, D, c, k);
       const Vec4 p = plain * fma(u.s.k, u.d, broadcast4(u.s.along) * c);
       power += ((p[0] + p[1]) + p[2]) + p[3];
     }

@@ -20,7 +20,7 @@ void edge_flux_jst_part(const Part& part, const EdgeArrays& edges, const CornerA
       const std::int32_t b = edges.b[e];
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const Vec4 t = low(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
-      store4(scratch.edge + 4 * (e - part.edge_begin), fma((load4(rows.L + row::L * b) - La) * broadcast4(edges.size[e]), scale, t));
+      store4(scratch.edge + 4 * (e - part.edge_begin), fma((load4(rows.L + row::L * b) - La) * broadcast4(edge_size(edges, e)), scale, t));
     }
   }
   corner_forces<FluxCorrection::none>(part, corners, lists, rows, k, scratch.edge);

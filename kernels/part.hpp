@@ -26,8 +26,17 @@ struct EdgeArrays {
   const std::int32_t* a;        // row of the owned node
   const std::int32_t* b;        // row of the other node
   const double* C[3];           // [m^2] area vector from a to b
-  const double* size;           // [m^2] |C|
 };
+
+/// |C| [m^2] of an edge, and of eight.
+NANSON_INLINE double edge_size(const EdgeArrays& edges, std::ptrdiff_t e) {
+  const double C0 = edges.C[0][e], C1 = edges.C[1][e], C2 = edges.C[2][e];
+  return root(fma(C2, C2, fma(C1, C1, C0 * C0)));
+}
+NANSON_INLINE Vec8 edge_sizes(const EdgeArrays& edges, std::ptrdiff_t e) {
+  const Vec8 C0 = load8_anywhere(edges.C[0] + e), C1 = load8_anywhere(edges.C[1] + e), C2 = load8_anywhere(edges.C[2] + e);
+  return root(fma(C2, C2, fma(C1, C1, C0 * C0)));
+}
 
 /// Boundary corners (a; b, c): a third of a boundary face, in rows by owning node a.
 struct CornerArrays {

@@ -99,7 +99,7 @@ inline double pseudo_step_part(const Part& part, const EdgeArrays& edges, const 
     const double* E = rows.E + row::E * static_cast<std::ptrdiff_t>(e);
     const Vec4 D = load4(rows.X + row::X * edges.b[e]) - load4(rows.X + row::X * edges.a[e]), ha = load4(E), hb = load4(E + 4);
     const double largest2 = 4 * larger(dot3(ha, ha)[0], dot3(hb, hb)[0]);
-    least = smaller(root(dot3(D, D)[0]) * edges.size[e] / root(largest2), least);
+    least = smaller(root(dot3(D, D)[0]) * edge_size(edges, e) / root(largest2), least);
   }
   return scale * least;
 }

@@ -64,7 +64,7 @@ inline void projection_edges_part(const Part& part, const EdgeArrays& edges, con
       const double C0 = 0.5 * edges.C[0][e], C1 = 0.5 * edges.C[1][e], C2 = 0.5 * edges.C[2][e];
       Vec4 ha = area(PHa, C0, C1, C2), hb = area(rows.PH + row::PH * edges.b[e], C0, C1, C2);
       const Vec4 c = ha + hb;
-      const double w = k.beta_over_rho_cs * dot3(c, c)[0] / edges.size[e];
+      const double w = k.beta_over_rho_cs * dot3(c, c)[0] / edge_size(edges, e);
       ha[3] = -w, hb[3] = w;
       store8(rows.E + row::E * static_cast<std::ptrdiff_t>(e), concat(ha, hb));
     }

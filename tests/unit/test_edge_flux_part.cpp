@@ -65,7 +65,7 @@ struct TwoParts {
   static constexpr int rows = 16, a = 0, b = 8;
   Aligned<double> X, W, PH, G, Q, GP, L;
   std::int32_t first[64] = {a, b}, second[64] = {b, a}, none[rows + 1] = {}, out[rows + 1] = {};
-  double C[3][64] = {}, size[64] = {};
+  double C[3][64] = {}, size = 0;
   Part part[2] = {{0, 8, 0, 1, 0, 0, 0, 0}, {8, 16, 1, 2, 0, 0, 0, 0}};
   Coefficients k;
   double flux[2][8];
@@ -86,7 +86,7 @@ struct TwoParts {
     }
     out[rows] = 2;
     for (int i = 0; i < 3; ++i) C[i][0] = uniform(random, -1, 1), C[i][1] = -C[i][0];
-    size[0] = size[1] = std::sqrt(C[0][0] * C[0][0] + C[1][0] * C[1][0] + C[2][0] * C[2][0]);
+    size = std::sqrt(C[0][0] * C[0][0] + C[1][0] * C[1][0] + C[2][0] * C[2][0]);
     k.rho_cp = 3, k.rho_cs = 1.2, k.material.cp = 2;
   }
   Rows nodal() {
@@ -94,7 +94,7 @@ struct TwoParts {
     r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.Q = Q.data(), r.GP = GP.data(), r.L = L.data();
     return r;
   }
-  EdgeArrays edges() const { return {first, second, {C[0], C[1], C[2]}, size}; }
+  EdgeArrays edges() const { return {first, second, {C[0], C[1], C[2]}}; }
   NodeLists lists() const { return {out, none, none, none}; }
   PartFunctions functions(const Combination& c) const { return find_part_functions(c.physics, MaterialSpec{}); }
 
@@ -262,6 +262,6 @@ TEST(EdgeFluxPart, JamesonSchmidtTurkelDampsTheDifferenceOfThePseudoLaplacians) 
   two.run({physics});
   const auto t = two.central({physics});
   const double* Lb = &two.L[row::L * two.b];
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i], t[i] - two.k.rho_cp / 256 * two.size[0] * (Lb[i] - two.L[i]), 1e-15);
-  EXPECT_NEAR(two.flux[0][3], -two.k.material.cp / 8192 * two.size[0] * (Lb[3] - two.L[3]), 1e-17);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i], t[i] - two.k.rho_cp / 256 * two.size * (Lb[i] - two.L[i]), 1e-15);
+  EXPECT_NEAR(two.flux[0][3], -two.k.material.cp / 8192 * two.size * (Lb[3] - two.L[3]), 1e-17);
 }

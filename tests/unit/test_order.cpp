@@ -109,8 +109,9 @@ TEST(Order, EveryMeshEdgeStandsOnceInItsPartOrOnceInEachOfTwoWithOppositeC) {
     for (const int e : at) {
       const double sign = o.node_of[o.a[e]] == edge.a ? 1 : -1;
       for (int k = 0; k < 3; ++k) EXPECT_EQ(o.C[k][e], sign * edge.C[k]);
-      EXPECT_NEAR(o.size[e], norm(edge.C), 1e-16);
-      EXPECT_EQ(o.size[e], o.size[at[0]]);
+      EXPECT_NEAR(edge_size(o.edges(), e), norm(edge.C), 1e-16);
+      EXPECT_EQ(edge_size(o.edges(), e), edge_size(o.edges(), at[0]));
+      EXPECT_EQ(edge_size(o.edges(), e), edge_sizes(o.edges(), e)[0]);
       const Part& p = o.parts[m.part_of(o.a[e])];
       EXPECT_GE(e, p.edge_begin);
       EXPECT_LT(e, p.edge_end);
