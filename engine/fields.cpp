@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "engine/initial.hpp"
+#include "engine/manufactured.hpp"
 
 namespace nanson {
 namespace {
@@ -121,10 +122,7 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
   std::map<std::string, double> errors;
   if (!has_exact_solution(*s.scene)) return errors;
   const MaterialConstants& m = s.coefficients.material;
-  const auto P11 = [&](const PointState& p) {
-    const double trace = p.F[0][0] + p.F[1][1] + p.F[2][2] - 3;
-    return 2 * m.mu * (p.F[0][0] - 1 - trace / 3) + m.kappa * trace;
-  };
+  const auto P11 = [&](const PointState& p) { return exact_stress(s.scene->material, m, p)[0][0]; };
   const Vec3 middle = middle_of_box(*s.mesh);
   double e1[2]{}, e2[2]{}, x1[3]{}, x2[3]{};  // p1, P11; sizes of p1, P11 at t and P11 at t = 0
   for (int n = 0; n < s.order.nodes; ++n) {

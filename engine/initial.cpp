@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "engine/manufactured.hpp"
 #include "engine/material.hpp"
 
 namespace nanson {
@@ -60,7 +61,8 @@ Vec3 plate_mode(const InitialSpec& s, const Vec3& X) {
 }  // namespace
 
 bool has_exact_solution(const Scene& scene) {
-  return scene.initial.field == InitialField::standing_wave || scene.initial.field == InitialField::plane_wave;
+  using enum InitialField;
+  return scene.initial.field == standing_wave || scene.initial.field == plane_wave || scene.initial.field == manufactured;
 }
 
 Vec3 middle_of_box(const Mesh& mesh) {
@@ -73,6 +75,7 @@ Vec3 middle_of_box(const Mesh& mesh) {
 }
 
 PointState exact_solution(const Scene& scene, const Vec3& middle, const Vec3& X, double t) {
+  if (scene.initial.field == InitialField::manufactured) return manufactured_solution(scene, X, t);
   return scene.initial.field == InitialField::standing_wave ? standing_wave(scene, X, t) : plane_wave(scene, middle, X, t);
 }
 
@@ -90,6 +93,7 @@ PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, 
     case InitialField::twist: out.v = rotation({0, 0, s.twist_omega * std::sin(pi * X[2] / (2 * s.height))}, X); break;
     case InitialField::plate_mode: out.v = plate_mode(s, X); break;
     case InitialField::punch: out.v = {0, 0, -s.v0 * (0.5 - std::abs(X[0])) * (0.5 - std::abs(X[1])) * X[2] / s.height}; break;  // scenes, 6
+    case InitialField::manufactured:
     case InitialField::standing_wave:
     case InitialField::plane_wave: return exact_solution(scene, middle, X, 0);
   }
@@ -97,7 +101,8 @@ PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, 
 }
 
 double initial_J(const Scene& scene, const double (&F)[3][3]) {
-  if (has_exact_solution(scene) && scene.initial.J == InitialJ::linear) return 1 + (F[0][0] - 1) + (F[1][1] - 1) + (F[2][2] - 1);
+  const bool linear = scene.initial.field == InitialField::manufactured ? scene.material.law == Law::linear_elastic : scene.initial.J == InitialJ::linear;
+  if (has_exact_solution(scene) && linear) return 1 + (F[0][0] - 1) + (F[1][1] - 1) + (F[2][2] - 1);
   Tensor<double> T;
   for (int i = 0; i < 9; ++i) T[i / 3][i % 3] = F[i / 3][i % 3];
   return determinant(T, cofactor(T));

@@ -52,7 +52,7 @@ std::optional<std::string> geometry_warning(const Simulation& s);
 double energy_closure(Simulation& s);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
-double linear_momentum_drift(Simulation& s);
+double linear_momentum_drift(Simulation& s);     // NaN where it is not known (initial.field = "manufactured")
 /// |L - L(0) - angular impulse| / sum Omega |x| |p|; nothing under ssp_rk3 when supports or loads exert a torque: its exact arms are known for TVD-RK2 only.
 std::optional<double> angular_momentum_drift(Simulation& s);
 

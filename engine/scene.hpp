@@ -16,7 +16,7 @@ using Vec3 = std::array<double, 3>;
 enum class MeshSource { box, cylinder, needle, file };
 enum class Split { alternating, kuhn };
 enum class Sector { quarter };
-enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave, punch };
+enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave, punch, manufactured };
 enum class InitialJ { linear, det };               // J(0) = 1 + tr(F - I) | det F
 enum class BoundaryKind { fixed, free, symmetric, skew_symmetric, traction, pressure, velocity };
 enum class TimeKind { constant, ramp, sine, pulse, logistic, table };
@@ -30,7 +30,7 @@ constexpr auto words(MeshSource) { return std::array<std::string_view, 4>{"box",
 constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
 constexpr auto words(Sector) { return std::array<std::string_view, 1>{"quarter"}; }
 constexpr auto words(InitialField) {
-  return std::array<std::string_view, 8>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave", "punch"};
+  return std::array<std::string_view, 9>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave", "punch", "manufactured"};
 }
 constexpr auto words(InitialJ) { return std::array<std::string_view, 2>{"linear", "det"}; }
 constexpr auto words(BoundaryKind) { return std::array<std::string_view, 7>{"fixed", "free", "symmetric", "skew_symmetric", "traction", "pressure", "velocity"}; }
@@ -108,7 +108,9 @@ struct InitialSpec {
   double amplitude = 0;                            // [m] plate_mode, standing_wave, plane_wave
   double mode_omega = 0;                           // [1/s] plate_mode
   double B = 0;                                    // [1/m] plate_mode
-  double length = 0;                               // [m] plane_wave: half width of the pulse
+  double length = 0;                               // [m] plane_wave: half width of the pulse; manufactured: between planes of symmetry
+  Vec3 amplitudes{};                               // [m] manufactured, one a direction
+  double period = 0;                               // [s] manufactured
   Vec3 direction{1, 0, 0};                         // [-] plane_wave: unit vector of travel
 };
 

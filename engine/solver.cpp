@@ -57,10 +57,11 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const auto lists = s.order.lists();
   const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
   const bool keeps = s.scene->physics.keep_angular_momentum;
+  const double t = s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt);
   const double* arms = u.U[0].data();  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
 
   if (!s.boundary.loaded.empty()) {
-    const Vec3 sum = compute_loads(s, rows.U_stage, s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt));
+    const Vec3 sum = compute_loads(s, rows.U_stage, t);
     for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
   }
   if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { s.functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
@@ -75,6 +76,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
       }
       s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
+      if (!s.manufactured.waves.empty()) add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
       if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
     });

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/clock.hpp"
+#include "engine/manufactured.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
@@ -42,6 +43,7 @@ struct Simulation {
   Boundary boundary;
   State state;
   Projection projection;                  // pFp only
+  Manufactured manufactured;              // its body force; empty in all other scenes
   PartFunctions functions;
   Coefficients coefficients;
   std::vector<PartReport> reports;        // one a part

@@ -141,7 +141,8 @@ void read_initial(Table& t, InitialSpec& s) {
                            {plate_mode, {"amplitude", "omega", "B"}},
                            {standing_wave, {"amplitude", "J"}},
                            {plane_wave, {"amplitude", "length", "direction", "J"}},
-                           {punch, {"v0", "height"}}});
+                           {punch, {"v0", "height"}},
+                           {manufactured, {"amplitudes", "length", "period"}}});
   if (s.field == velocity) t.require("v", s.v);
   if (s.field == rotation) read_rotation(t, s);
   if (s.field == twist) {
@@ -164,6 +165,11 @@ void read_initial(Table& t, InitialSpec& s) {
   if (s.field == plane_wave) {
     t.require("length", s.length, {.above = 0});
     if (t.read("direction", s.direction) && !normalise(s.direction)) t.fail("direction", "must not be zero");
+  }
+  if (s.field == manufactured) {
+    t.require("amplitudes", s.amplitudes);
+    t.require("length", s.length, {.above = 0});
+    t.require("period", s.period, {.above = 0});
   }
 }
 
@@ -218,6 +224,35 @@ void check_projection(const Scene& s, At at) {
   refuse(s.time.step == StepRule::paper, "time", "step", "is not built with formulation = \"pFp\", allowed: dual | edge");
 }
 
+/// The manufactured motion is exact between planes of symmetry, under its own body force alone.
+template <class At>
+void check_manufactured(const Scene& s, At at) {
+  const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view why) {
+    if (wrong) at(section, key, why);
+  };
+  const std::string_view why = "has no exact solution with initial.field = \"manufactured\"", audit = "does not book the body force of initial.field = \"manufactured\"";
+  refuse(s.material.law == Law::hencky_j2, "material", "law", why);
+  refuse(s.material.isochoric == Isochoric::J, "material", "isochoric", why);
+  refuse(s.physics.formulation == Formulation::pFp, "physics", "formulation", why);
+  refuse(s.physics.keep_angular_momentum, "physics", "keep_angular_momentum", audit);
+  refuse(s.monitor.energy, "monitor", "energy", audit);
+  refuse(s.body_force != Vec3{}, "body_force", "g", why);
+  std::vector<std::string_view> missing{"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
+  bool symmetric = true;
+  for (const BoundarySpec& b : s.boundary) {
+    symmetric = symmetric && b.kind == BoundaryKind::symmetric;
+    for (const Named& face : b.faces) std::erase(missing, face.name);
+  }
+  refuse(!symmetric || !missing.empty(), "initial", "field", "needs kind = \"symmetric\" on all six faces of a box");
+  bool planes = s.mesh.source == MeshSource::box;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (const double X : {s.mesh.origin[k], s.mesh.origin[k] + s.mesh.size[k]}) {
+      const double halves = X / s.initial.length;
+      planes = planes && std::abs(halves - std::round(halves)) < 1e-9;
+    }
+  refuse(!planes, "initial", "length", "the faces of mesh.box must lie on multiples of it");
+}
+
 }  // namespace
 
 void check_together(Table& root, const Scene& s) {
@@ -243,6 +278,7 @@ void check_together(Table& root, const Scene& s) {
     at("monitor", "entropy", "counts the edges of the upwind stabilisation only, not of jst");
   if (sound("physics.keep_angular_momentum") && s.physics.keep_angular_momentum && sound("time.integrator") && s.time.integrator != Integrator::tvd_rk2)
     at("physics", "keep_angular_momentum", "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly");
+  if (sound("initial.field") && sound("initial.length") && s.initial.field == InitialField::manufactured) check_manufactured(s, at);
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
   const auto shows_plastic = [](const std::vector<std::string>& fields) { return std::find(fields.begin(), fields.end(), "plastic_strain") != fields.end(); };
   if (sound("material.law") && s.material.law != Law::hencky_j2) {

@@ -181,7 +181,6 @@ TEST(Scene, FeaturesThatAreNotBuiltAreUnknown) {
   });
   expect_each_refused(column_scene, {
       {"upwind_metric   = \"paper\"", "description = \"total\"", "scene.toml:23:1: physics.description = \"total\": unknown key"},
-      {"\"twist\"", "\"manufactured\"", "scene.toml:26:10: initial.field = \"manufactured\": unknown word"},
   });
 }
 
