@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "bench/model.hpp"
+#include "engine/work.hpp"
 #include "engine/mesh.hpp"
 
 namespace nanson {

@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "bench/bench.hpp"
-#include "bench/counted.hpp"
+#include "engine/counted.hpp"
 #include "bench/naive_loop.hpp"
 #include "engine/clock.hpp"
 

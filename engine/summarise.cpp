@@ -62,6 +62,9 @@ std::string closing_line(const Summary& s) {
   for (const char* k : {"p1_L2", "P11_L2"})
     if (const auto at = s.errors.find(k); at != s.errors.end()) line += fmt::format(", {} {:.2e}", k, at->second);
   if (s.projection) line += fmt::format(", {:.1f} {} iterations a stage", s.projection->iterations_per_stage, s.projection->solver);
+  if (s.throughput) line += fmt::format(", {:.1f} GF/s, {:.1f} GB/s", s.throughput->GF_s, s.throughput->GB_s);
+  if (s.throughput && s.throughput->bandwidth_share)
+    line += fmt::format(" ({:.0f} % of the update bandwidth)", 100 * *s.throughput->bandwidth_share);
   if (s.energy.closure) line += fmt::format(", energy closure {:.1e}", *s.energy.closure);
   return line;
 }

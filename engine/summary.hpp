@@ -29,6 +29,13 @@ struct ProjectionSummary {
   bool closed = false;                                            // no free surface: the mean pressure is kept at 0
 };
 
+/// What the sweeps gradient and flux_update_stress made of the machine, by the model of engine/work.hpp.
+struct Throughput {
+  double bytes_per_node_step = 0, flops_per_node_step = 0;        // of the model
+  double GB_s = 0, GF_s = 0;                                      // reached
+  std::optional<double> update_GB_s, bandwidth_share;             // measured after the run, not with --quiet; share of it [-]
+};
+
 struct Summary {
   std::string status = "done";                                    // done | breakdown | stopped
   std::string reason;                                             // why it did not end as asked; empty when done
@@ -53,6 +60,7 @@ struct Summary {
   std::vector<SweepTime> sweeps;
   double checkerboard = 0;                                        // [-] of the pressure, 0 smooth, 1 a checkerboard
   std::optional<ProjectionSummary> projection;                    // pFp only
+  std::optional<Throughput> throughput;                           // where the model counts
 };
 
 }  // namespace nanson

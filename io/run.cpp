@@ -3,8 +3,10 @@
 
 #include <fmt/format.h>
 
+#include "engine/bandwidth.hpp"
 #include "engine/monitor.hpp"
 #include "engine/summarise.hpp"
+#include "engine/throughput.hpp"
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
 #include "io/results_folder.hpp"
@@ -80,7 +82,9 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   observer.stop = [] { return stop_signal() ? fmt::format("signal {}", stop_signal()) : std::string(); };
   std::string reason;
   const std::string status = run(s, observer, reason);
-  const Summary summary = summarise(s, probes, status, reason);
+  Summary summary = summarise(s, probes, status, reason);
+  constexpr std::size_t beyond_L3 = 8 << 20;       // doubles: 64 MB an array
+  summary.throughput = throughput(s, options.quiet ? 0.0 : update_bandwidth(s.threads, beyond_L3, 3));
   write_summary(folder.path() / "summary.json", summary, from);
   if (!reason.empty()) progress.message(status + ": " + reason);
   say(options, closing_line(summary));

@@ -82,6 +82,13 @@ toml::table projection_table(const std::optional<ProjectionSummary>& p) {
                      {"residual", number(p->residual)}, {"closed", p->closed}};
 }
 
+/// Empty where the model does not count.
+toml::table throughput_table(const std::optional<Throughput>& t) {
+  if (!t) return {};
+  return toml::table{{"bytes_per_node_step", number(t->bytes_per_node_step)}, {"flops_per_node_step", number(t->flops_per_node_step)}, {"GB_s", number(t->GB_s)},
+                     {"GF_s", number(t->GF_s)}, {"update_GB_s", number(t->update_GB_s)}, {"bandwidth_share", number(t->bandwidth_share)}};
+}
+
 toml::table summary_table(const Summary& s, const Provenance& from) {
   toml::table table{
       {"status", s.status}, {"reason", s.reason}, {"scene", s.scene}, {"formulation", s.formulation}, {"material", s.material},
@@ -97,6 +104,7 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
       {"probes", probes_table(s.probes)}, {"sweeps", sweeps_table(s.sweeps)}, {"provenance", provenance_table(from)}};
   table.insert("checkerboard", number(s.checkerboard));
   table.insert("projection", projection_table(s.projection));
+  table.insert("throughput", throughput_table(s.throughput));
   toml::table errors;
   for (const auto& [name, value] : s.errors) errors.insert(name, number(value));
   table.insert("errors", std::move(errors));

@@ -47,7 +47,7 @@ inline Work gradient_work(const Carried& c, const Sizes& s) {
               s.edges * bytes::edge + s.in_edges * bytes::in_edge + s.corners * bytes::corner;
   const double numbers = c.w + (of_P ? 9 : 0);
   out.flops = half_edges * numbers * (1 + 6) + s.corners * numbers * (4 + 6) + s.nodes * 3 * numbers;  // difference, 3 fma; mean of two; scaling
-  if (c.full) out.flops += half_edges * (3 + 9 * (1 + 6) + 18 + 18) + s.nodes * 18;                     // D; P_a - P_b + D . grad P; times C; (x) D
+  if (c.full) out.flops += half_edges * (3 + 15 + 18 + 6 + 36) + s.nodes * (162 + 27);                   // D; (P_b - P_a) C; (x) D; D (x) D; times C; times grad P
   if (c.limited) out.flops += half_edges * (3 + c.w * (1 + 5 + 1 + 4)) + s.nodes * c.w * 8;             // D; jump, slope, four extremes; quotients
   if (c.jst) out.flops += half_edges * (3 + 6 + 3 * c.w);                                                // D; weight; sum
   if (c.limited || c.jst) out.bytes += s.nodes * (2 * bytes::L + (c.jst ? bytes::lambda : 0));
@@ -91,7 +91,7 @@ inline Work accumulate_update_work(const Carried& c, const Sizes& s, bool alone)
   return out;
 }
 
-/// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by bench/counted.hpp.
+/// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by engine/counted.hpp.
 inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {
   return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + 2 * bytes::W + 2 * bytes::PH), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
 }
