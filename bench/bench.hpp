@@ -31,6 +31,9 @@ void set_columns(benchmark::State& state, double seconds, double nodes, const Wo
 
 Mesh box_mesh(const MeshSpec& spec);
 
+/// The twisting column of the step benches, 26 of 48 cells across.
+Scene column();
+
 /// One row of the table at the end.
 struct StepRatio {
   std::string scene;
@@ -43,5 +46,6 @@ std::vector<StepRatio>& step_ratios();
 void register_bandwidth();
 void register_sweeps();
 void register_steps();
+void register_variants();
 
 }  // namespace nanson

@@ -33,17 +33,6 @@ Scene cube() {
   return s;
 }
 
-/// Twisting column, neo-Hookean, {p,F,J}, foot fixed (paper, 6.5).
-Scene column() {
-  Scene s;
-  const int n = std::max(1, options().cells * 26 / full_cells);
-  s.mesh.origin = {-0.5, -0.5, 0}, s.mesh.size = {1, 1, 6}, s.mesh.cells = {n, n, 6 * n};
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.495;
-  s.initial.field = InitialField::twist, s.initial.twist_omega = 105, s.initial.height = 6;
-  s.boundary = {condition(BoundaryKind::fixed, {"zmin"})};
-  return s;
-}
-
 /// Free beryllium plate, neo-Hookean, {p,F} (paper, 6.2).
 Scene plate() {
   Scene s;
@@ -131,6 +120,17 @@ void show(benchmark::State& state, const Measured& m, double seconds, int thread
 }
 
 }  // namespace
+
+/// Twisting column, neo-Hookean, {p,F,J}, foot fixed (paper, 6.5).
+Scene column() {
+  Scene s;
+  const int n = std::max(1, options().cells * 26 / full_cells);
+  s.mesh.origin = {-0.5, -0.5, 0}, s.mesh.size = {1, 1, 6}, s.mesh.cells = {n, n, 6 * n};
+  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.495;
+  s.initial.field = InitialField::twist, s.initial.twist_omega = 105, s.initial.height = 6;
+  s.boundary = {condition(BoundaryKind::fixed, {"zmin"})};
+  return s;
+}
 
 void register_steps() {
   for (auto [name, scene] : {std::pair("cube", &cube), std::pair("column", &column), std::pair("plate", &plate)}) {

@@ -159,6 +159,7 @@ int main(int argc, char** argv) {
   register_bandwidth();
   register_sweeps();
   register_steps();
+  register_variants();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   print_table(kept);
