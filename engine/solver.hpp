@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/clock.hpp"
+#include "engine/current_geometry.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
@@ -42,6 +43,7 @@ struct Simulation {
   Boundary boundary;
   State state;
   Projection projection;                  // pFp only
+  CurrentGeometry current;                // current areas only
   PartFunctions functions;
   Coefficients coefficients;
   std::vector<PartReport> reports;        // one a part
@@ -77,6 +79,13 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads);
 
 /// Runs to the scene's end. Returns the status: done | breakdown | stopped, with the reason in `reason`.
 std::string run(Simulation& s, const Observer& observer, std::string& reason);
+
+/// What the fluxes take for area vectors of edges and corners: the undeformed ones, or the current ones that `find_current_areas` found last.
+EdgeArrays flux_edges(const Simulation& s);
+CornerArrays flux_corners(const Simulation& s);
+
+/// Current area vectors of the state U (nothing to do with description = "total").
+void find_current_areas(Simulation& s, const double* U);
 
 /// One step of size s.dt.
 void advance(Simulation& s);

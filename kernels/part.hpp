@@ -11,11 +11,12 @@ namespace row {
 inline constexpr int U = 16;    // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
 inline constexpr int H = 12;    // {columns of H, 0}, pFHJ only
 inline constexpr int W = 4;     // {v, Sigma_J}: what is reconstructed and swept
-inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}
+inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
 inline constexpr int G = 12;    // per direction I: d{v, Sigma_J}/dX_I
 inline constexpr int Q = 12;    // {columns of Q, 0}: the nodal stress of the full flux correction
 inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
 inline constexpr int L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
+inline constexpr int x = 4;     // {x, 0}, current areas only
 inline constexpr int X = 4;     // {X, 1/Omega}
 inline constexpr int lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
 inline constexpr int plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
@@ -35,6 +36,8 @@ struct CornerArrays {
   const std::int32_t* c;
   const double* C[3];           // [m^2] outward, a third of the face
   const std::int32_t* load;     // index into the loads of the stage, -1 without
+  const std::int32_t* at_b = nullptr;   // the same face's corners at b and c, current areas only
+  const std::int32_t* at_c = nullptr;
 };
 
 /// Per node: where its out-edges, in-edges (owned edges that end in it) and corners begin; one more entry than nodes.
@@ -66,6 +69,7 @@ struct Rows {
   double* GP;
   double* L;
   const double* lambda;
+  double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
   const double* loads;          // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
@@ -117,6 +121,9 @@ struct PartReport {
 /// What the gradient sweep adds to row L of a node.
 enum class NodeWeights { none, limiter, laplacian };
 
+/// What the arrays C of edges and corners hold: undeformed area vectors, which fluxes map by H; or current ones, used as they are with the Cauchy stress.
+enum class Areas { undeformed, current };
+
 // The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.
 template <bool tensor_jump, bool full_correction, NodeWeights>
 void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
@@ -127,18 +134,24 @@ void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const N
 template <bool evolves_J>
 void edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
-template <Formulation, bool corrected>
+template <Reconstruction, UpwindMetric>
+void current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+
+template <Formulation, bool corrected, Areas = Areas::undeformed>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
 template <Law, Volumetric, Isochoric, Formulation>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
+template <Law, Volumetric, Isochoric>
+PartReport cauchy_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
+
 template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 /// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
-template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
+template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Areas = Areas::undeformed>
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].
