@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 #include "engine/solver.hpp"
 #include "tests/unit/meshes.hpp"
 
@@ -12,9 +14,10 @@ using namespace nanson::test;
 namespace {
 
 struct CurrentDual : ::testing::TestWithParam<Split> {
-  Scene scene;
+  std::deque<Scene> scenes;  // simulations point into them
   Mesh mesh = box({13, 12, 10}, GetParam(), 0.2);  // two parts
   Simulation start(Description d) {
+    Scene& scene = scenes.emplace_back();
     scene.material.density = 1000, scene.material.youngs_modulus = 1e6, scene.material.poissons_ratio = 0.3, scene.time.end = 1;
     scene.physics.description = d;
     return make_simulation(scene, mesh, 1);
