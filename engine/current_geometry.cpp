@@ -71,14 +71,14 @@ std::size_t current_geometry_bytes(const CurrentGeometry& g) {
 
 EdgeArrays flux_edges(const Simulation& s) {
   EdgeArrays e = s.order.edges();
-  for (int k = 0; k < 3 && has_current_areas(s.scene->physics.description); ++k) e.C[k] = s.current.c[k].data();
+  for (int k = 0; k < 3 && has_current_areas(s.scene->physics.description); ++k) e.c[k] = s.current.c[k].data();
   return e;
 }
 
 CornerArrays flux_corners(const Simulation& s) {
   CornerArrays c = s.order.corners();
   if (!has_current_areas(s.scene->physics.description)) return c;
-  for (int k = 0; k < 3; ++k) c.C[k] = s.current.corner[k].data();
+  for (int k = 0; k < 3; ++k) c.c_gamma[k] = s.current.corner[k].data();
   c.at_b = s.current.at_b.data(), c.at_c = s.current.at_c.data();
   return c;
 }

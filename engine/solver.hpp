@@ -80,7 +80,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads);
 /// Runs to the scene's end. Returns the status: done | breakdown | stopped, with the reason in `reason`.
 std::string run(Simulation& s, const Observer& observer, std::string& reason);
 
-/// What the fluxes take for area vectors of edges and corners: the undeformed ones, or the current ones that `find_current_areas` found last.
+/// Edges and corners as fluxes see them: with the current area vectors that `find_current_areas` found last where the description has some.
 EdgeArrays flux_edges(const Simulation& s);
 CornerArrays flux_corners(const Simulation& s);
 

@@ -1,4 +1,4 @@
-// Fluxes with current area vectors and the Cauchy stress (paper, eq. 48, 49), and the rate of J by the motion of the dual cell; {p,F,J}. Edges and corners carry c in C.
+// Fluxes with current area vectors and the Cauchy stress (paper, eq. 48, 49), and the rate of J by the motion of the dual cell; {p,F,J}.
 #pragma once
 #include "kernels/edge_flux_part.hpp"
 #include "kernels/gradient_part.hpp"
@@ -7,7 +7,8 @@ namespace nanson {
 
 /// dJ/dt = (1/Omega0) [sum_b (v_b - v_a)/2 . c + sum_gamma (v_b + v_c - 2 v_a)/8 . c_gamma] [1/s]: (48d) with relative velocities. The same where the areas close,
 /// and right where they do not (pseudo_updated; method, section 8): a translation gives zero bitwise.
-NANSON_INLINE void cell_motion(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
+NANSON_INLINE void cell_motion(const Part& part, EdgeArrays edges, CornerArrays corners, const NodeLists& lists, const Rows& rows) {
+  for (int i = 0; i < 3; ++i) edges.C[i] = edges.c[i], corners.C[i] = corners.c_gamma[i];  // `around` visits what stands in C
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const Vec4 Wa = load4(rows.W + row::W * n);
     Vec4 s{};
@@ -25,8 +26,8 @@ NANSON_INLINE void cell_motion(const Part& part, const EdgeArrays& edges, const 
 NANSON_INLINE void current_corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, double* buffer) {
   const auto traction = [&](std::int32_t n, std::int32_t g) {
     const double* sigma = rows.PH + row::PH * static_cast<std::ptrdiff_t>(n) + 4;
-    const Vec4 t = fma(load4(sigma + 8), broadcast4(corners.C[1][g]), load4(sigma) * broadcast4(corners.C[0][g]));
-    return fma(load4(sigma + 16), broadcast4(corners.C[2][g]), t);
+    const Vec4 t = fma(load4(sigma + 8), broadcast4(corners.c_gamma[1][g]), load4(sigma) * broadcast4(corners.c_gamma[0][g]));
+    return fma(load4(sigma + 16), broadcast4(corners.c_gamma[2][g]), t);
   };
   for (int a = part.node_begin; a < part.node_end; ++a)
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {

@@ -59,7 +59,8 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
     __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
     if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
-    const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
+    const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
+    const double C[3] = {area[0][e], area[1][e], area[2][e]};
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
@@ -135,8 +136,9 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const double* PHa = rows.PH + row::PH * a;
       const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
-      Vec4 c = Vec4{C[0], C[1], C[2], 0.0};
-      if constexpr (areas == Areas::undeformed) c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
+      Vec4 c;
+      if constexpr (areas == Areas::current) c = Vec4{edges.c[0][e], edges.c[1][e], edges.c[2][e], 0.0};
+      else c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
       const Vec4 plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a), D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a);
       const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edges.size[e], plain, D, c, k);
       const Vec4 p = plain * fma(u.s.k, u.d, broadcast4(u.s.along) * c);

@@ -28,6 +28,7 @@ struct EdgeArrays {
   const std::int32_t* b;        // row of the other node
   const double* C[3];           // [m^2] area vector from a to b
   const double* size;           // [m^2] |C|
+  const double* c[3] = {};      // [m^2] current area vector from a to b, current areas only
 };
 
 /// Boundary corners (a; b, c): a third of a boundary face, in rows by owning node a.
@@ -36,7 +37,8 @@ struct CornerArrays {
   const std::int32_t* c;
   const double* C[3];           // [m^2] outward, a third of the face
   const std::int32_t* load;     // index into the loads of the stage, -1 without
-  const std::int32_t* at_b = nullptr;   // the same face's corners at b and c, current areas only
+  const double* c_gamma[3] = {};  // [m^2] current area vector, current areas only; and the same face's corners at b and c
+  const std::int32_t* at_b = nullptr;
   const std::int32_t* at_c = nullptr;
 };
 
@@ -69,13 +71,13 @@ struct Rows {
   double* GP;
   double* L;
   const double* lambda;
-  double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
   const double* loads;          // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
   double* W_new;
   double* PH_new;
   double* plastic;              // at the start of the step, overwritten where the stage commits
+  double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
 };
 
 /// Directions in which a node is held, orthonormal, with what prescribes the acceleration along each.
@@ -121,7 +123,7 @@ struct PartReport {
 /// What the gradient sweep adds to row L of a node.
 enum class NodeWeights { none, limiter, laplacian };
 
-/// What the arrays C of edges and corners hold: undeformed area vectors, which fluxes map by H; or current ones, used as they are with the Cauchy stress.
+/// What fluxes multiply stresses with: the undeformed area vectors C, P and H; or the current ones c and the Cauchy stress.
 enum class Areas { undeformed, current };
 
 // The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.

@@ -152,6 +152,20 @@ TEST(Description, MomentumIsConstantInAFreeBarAndChangesByTheBookedImpulse) {
       }
 }
 
+TEST(Description, AngularMomentumIsKeptWhereAskedFor) {
+  for (auto d : current) {
+    Scene scene = with(free_bar(3), d);
+    Problem lost(scene);
+    scene.physics.keep_angular_momentum = true;
+    Problem kept(scene);
+    Simulation k = kept.start(), l = lost.start();
+    march(k, 100), march(l, 100);
+    EXPECT_FALSE(k.breakdown);
+    EXPECT_LT(*angular_momentum_drift(k), 1e-13) << word(d);
+    EXPECT_GT(*angular_momentum_drift(l), 1e-10) << word(d);
+  }
+}
+
 TEST(Description, ThreadsChangeNoBit) {
   for (auto d : current)
     for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear}) {
@@ -181,11 +195,11 @@ TEST(Description, AreasOfACutEdgeAreBitwiseOppositeInItsTwoParts) {
     std::map<std::pair<int, int>, Vec3> seen;
     int pairs = 0, unequal = 0;
     for (int k = 0; k < s.order.out.back(); ++k) {
-      seen[{e.a[k], e.b[k]}] = {e.C[0][k], e.C[1][k], e.C[2][k]};
+      seen[{e.a[k], e.b[k]}] = {e.c[0][k], e.c[1][k], e.c[2][k]};
       const auto other = seen.find({e.b[k], e.a[k]});
       if (other == seen.end()) continue;
       ++pairs;
-      for (int i = 0; i < 3; ++i) unequal += e.C[i][k] != -other->second[i];
+      for (int i = 0; i < 3; ++i) unequal += e.c[i][k] != -other->second[i];
     }
     EXPECT_GT(pairs, 100);
     EXPECT_EQ(unequal, 0) << word(d);

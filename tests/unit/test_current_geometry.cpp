@@ -49,9 +49,9 @@ double closure(const Simulation& s) {
       for (int i = 0; i < 3; ++i) sum[r][i] += sign * c[i][k];
       size[r] += norm({c[0][k], c[1][k], c[2][k]});
     };
-    for (int k = s.order.out[r]; k < s.order.out[r + 1]; ++k) add(1, e.C, k);
-    for (int k = s.order.in[r]; k < s.order.in[r + 1]; ++k) add(-1, e.C, s.order.in_edges[k]);
-    for (int k = s.order.corner[r]; k < s.order.corner[r + 1]; ++k) add(1, g.C, k);
+    for (int k = s.order.out[r]; k < s.order.out[r + 1]; ++k) add(1, e.c, k);
+    for (int k = s.order.in[r]; k < s.order.in[r + 1]; ++k) add(-1, e.c, s.order.in_edges[k]);
+    for (int k = s.order.corner[r]; k < s.order.corner[r + 1]; ++k) add(1, g.c_gamma, k);
   }
   double worst = 0;
   for (int r = 0; r < s.order.rows; ++r)
@@ -65,8 +65,8 @@ double difference(const Simulation& s, const Order& expected) {
   const CornerArrays g = flux_corners(s);
   double worst = 0, largest = 0;
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < expected.out.back(); ++k) worst = std::max(worst, std::abs(e.C[i][k] - expected.C[i][k])), largest = std::max(largest, expected.size[k]);
-    for (std::size_t k = 0; k < expected.corner_C[i].size(); ++k) worst = std::max(worst, std::abs(g.C[i][k] - expected.corner_C[i][k]));
+    for (int k = 0; k < expected.out.back(); ++k) worst = std::max(worst, std::abs(e.c[i][k] - expected.C[i][k])), largest = std::max(largest, expected.size[k]);
+    for (std::size_t k = 0; k < expected.corner_C[i].size(); ++k) worst = std::max(worst, std::abs(g.c_gamma[i][k] - expected.corner_C[i][k]));
   }
   return worst / largest;
 }
