@@ -163,7 +163,7 @@ double pressure_stabilisation_power(Simulation& s, const Rows& rows) {
 }  // namespace
 
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
-  const auto edges = s.order.edges();
+  const auto edges = flux_edges(s);
   const auto lists = s.order.lists();
   s.ledger.dissipated +=
       weighted_dt * sum_over_parts(s, [&](int p) { return s.functions.dissipation(s.order.parts[static_cast<std::size_t>(p)], edges, lists, rows, s.coefficients); });

@@ -83,6 +83,7 @@ struct PhysicsSpec {
   UpwindMetric upwind_metric = UpwindMetric::deformed;
   EntropyFix entropy_fix = EntropyFix::none;
   bool keep_angular_momentum = false;              // tvd_rk2 only
+  Description description = Description::total;
 };
 
 /// pFp only (method, section 10).

@@ -110,6 +110,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   s.functions = find_part_functions(scene.physics, scene.material);
   s.coefficients = coefficients_of(scene);
   s.manufactured = make_manufactured(scene, mesh, s.order);
+  s.current = make_current_geometry(scene.physics.description, mesh, s.order);
   s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
   s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
   s.scratch.resize(static_cast<std::size_t>(s.threads));
@@ -124,7 +125,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   return s;
 }
 
-double bytes_per_node(const Simulation& s) { return bytes_per_node(s.state, s.order) + static_cast<double>(projection_bytes(s.projection)) / s.order.nodes; }
+double bytes_per_node(const Simulation& s) { return bytes_per_node(s.state, s.order) + static_cast<double>(projection_bytes(s.projection) + current_geometry_bytes(s.current)) / s.order.nodes; }
 
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
   std::vector<std::pair<int, double>> steps;

@@ -51,10 +51,13 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
-  const Rows rows = stage_rows(u, from, to);
+  Rows rows = stage_rows(u, from, to);
+  rows.dJ = s.current.dJ.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
+  const EdgeArrays flux_edges = nanson::flux_edges(s);
+  const CornerArrays flux_corners = nanson::flux_corners(s);
   const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
   const bool keeps = s.scene->physics.keep_angular_momentum;
   const double t = s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt);
@@ -64,6 +67,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
     const Vec3 sum = compute_loads(s, rows.U_stage, t);
     for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
   }
+  if (has_current_areas(s.scene->physics.description)) s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
   if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { s.functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
   if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
   s.clock.time("flux_update_stress", [&] {
@@ -74,7 +78,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
         mine.G = scratch.dG - row::G * static_cast<std::ptrdiff_t>(part.node_begin);
         s.functions.gradient(part, edges, corners, lists, mine, k);
       }
-      s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
+      s.functions.edge_flux(part, flux_edges, flux_corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
       if (!s.manufactured.waves.empty()) add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);

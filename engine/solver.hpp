@@ -8,6 +8,7 @@
 
 #include "engine/clock.hpp"
 #include "engine/manufactured.hpp"
+#include "engine/current_geometry.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
@@ -44,6 +45,7 @@ struct Simulation {
   State state;
   Projection projection;                  // pFp only
   Manufactured manufactured;              // its body force; empty in all other scenes
+  CurrentGeometry current;                // current areas only
   PartFunctions functions;
   Coefficients coefficients;
   std::vector<PartReport> reports;        // one a part
@@ -79,6 +81,13 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads);
 
 /// Runs to the scene's end. Returns the status: done | breakdown | stopped, with the reason in `reason`.
 std::string run(Simulation& s, const Observer& observer, std::string& reason);
+
+/// Edges and corners as fluxes see them: with the current area vectors that `find_current_areas` found last where the description has some.
+EdgeArrays flux_edges(const Simulation& s);
+CornerArrays flux_corners(const Simulation& s);
+
+/// Current area vectors of the state U (nothing to do with description = "total").
+void find_current_areas(Simulation& s, const double* U);
 
 /// One step of size s.dt.
 void advance(Simulation& s);

@@ -109,6 +109,7 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   if (p.formulation != Formulation::pFHJ) out.push_back("H (evolved only in pFHJ): 192 bytes");
   if (!evolves_J(p.formulation)) out.push_back("evolution and stabilisation of J (pF, pFp): arithmetic only, its lanes would be padding");
   if (p.formulation != Formulation::pFp) out.push_back("projection (pFp): rows of edges and of its iteration");
+  if (!has_current_areas(p.description)) out.push_back("current dual geometry (description = total): areas of edges and faces, a sweep a stage");
   if (p.reconstruction == Reconstruction::constant && p.formulation != Formulation::pFp) out.push_back("gradients and their sweep (constant reconstruction): 96 bytes");
   if (p.flux_correction != FluxCorrection::full) out.push_back("Q and its pass (flux_correction is not full): 96 bytes");
   if (p.pressure_jump == PressureJump::scalar) out.push_back("gradient of P (scalar pressure jump): 288 bytes");

@@ -103,6 +103,7 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
 
 void read_physics(Table& t, PhysicsSpec& p) {
   t.read("formulation", p.formulation);
+  t.read("description", p.description);
   t.read("stabilisation", p.stabilisation);
   t.read("pressure_jump", p.pressure_jump);
   t.read("reconstruction", p.reconstruction);
@@ -253,6 +254,24 @@ void check_manufactured(const Scene& s, At at) {
   refuse(!planes, "initial", "length", "the faces of mesh.box must lie on multiples of it");
 }
 
+/// What current area vectors are not built with.
+template <class At>
+void check_current_areas(const Scene& s, At at) {
+  const PhysicsSpec& p = s.physics;
+  if (!has_current_areas(p.description)) return;
+  const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view allowed) {
+    if (wrong) at(section, key, fmt::format("is not built with description = \"{}\", allowed: {}", word(p.description), allowed));
+  };
+  if (p.formulation != Formulation::pFJ) at("physics", "description", fmt::format("needs formulation = \"pFJ\"; {}", what_is_built));
+  refuse(s.material.law == Law::linear_elastic, "material", "law", "neo_hookean | mooney_rivlin | hencky_j2");
+  refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "upwind");
+  refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "scalar");
+  refuse(p.reconstruction == Reconstruction::limited, "physics", "reconstruction", "constant | linear");
+  refuse(p.flux_correction != FluxCorrection::none, "physics", "flux_correction", "none");
+  refuse(p.boundary_flux != BoundaryFlux::adjoint, "physics", "boundary_flux", "adjoint");
+  refuse(p.entropy_fix != EntropyFix::none, "physics", "entropy_fix", "none");
+}
+
 }  // namespace
 
 void check_together(Table& root, const Scene& s) {
@@ -267,11 +286,12 @@ void check_together(Table& root, const Scene& s) {
     if (s.initial.J == InitialJ::det) at("initial", "J", why);
     if (s.physics.pressure_jump == PressureJump::tensor) at("physics", "pressure_jump", why);
   }
-  if (sound("physics.formulation"))
-    check_projection(s, [&](std::string_view section, std::string_view key, std::string_view why) {
-      const auto* t = root.find(section) ? root.find(section)->as_table() : nullptr;
-      if (t && t->contains(key) && sound(fmt::format("{}.{}", section, key))) at(section, key, why);
-    });
+  const auto at_sound = [&](std::string_view section, std::string_view key, std::string_view why) {
+    const auto* t = root.find(section) ? root.find(section)->as_table() : nullptr;
+    if (t && t->contains(key) && sound(fmt::format("{}.{}", section, key))) at(section, key, why);
+  };
+  if (sound("physics.formulation")) check_projection(s, at_sound);
+  if (sound("physics.description")) check_current_areas(s, at_sound);
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
     at("monitor", "energy", "audits the upwind stabilisation only, not jst");
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.entropy)

@@ -62,8 +62,8 @@ NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficie
   }
 }
 
-/// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
-template <Formulation formulation, bool corrected>
+/// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G (current areas: row dJ) + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
+template <Formulation formulation, bool corrected, Areas areas>
 NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
   const Vec4 w0 = broadcast4(k.old_weight), w1 = broadcast4(k.stage_weight), dt = broadcast4(k.dt);
   const double inverse_rho = 1.0 / k.material.rho;
@@ -78,7 +78,8 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
       for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I);
     const double inverse_volume = rows.X[row::X * n + 3], inverse_mass = inverse_rho * inverse_volume;
     Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin)) * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
-    if constexpr (formulation != Formulation::pF) {
+    if constexpr (areas == Areas::current) rate[3] += rows.dJ[n];
+    else if constexpr (formulation != Formulation::pF) {
       Vec4 p = load4(PH + 4) * g[0];
       p = fma(load4(PH + 12), g[1], p), p = fma(load4(PH + 20), g[2], p);
       rate[3] += (p[0] + p[1]) + p[2];
@@ -97,12 +98,12 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
   }
 }
 
-template <Formulation formulation, bool corrected>
+template <Formulation formulation, bool corrected, Areas areas>
 void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                             const Constraint* constraints, double* reactions, const Scratch& scratch) {
   gather<corrected>(part, edges, lists, rows, k, scratch);
   constrain(part, rows, k, constraints, reactions, scratch);
-  update<formulation, corrected>(part, rows, k, scratch);
+  update<formulation, corrected, areas>(part, rows, k, scratch);
 }
 
 }  // namespace nanson

@@ -51,7 +51,7 @@ struct EdgeBlock {
 };
 
 /// First pass over edges [begin, end): central traction and area, jumps; q = (theta/4)(G_a - G_b) . D into the second half of the flux rows.
-template <Reconstruction reconstruction, FluxCorrection correction, PressureJump jump, EntropyFix fix>
+template <Reconstruction reconstruction, FluxCorrection correction, PressureJump jump, EntropyFix fix, Areas areas>
 NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta, EdgeBlock& block, double* flux) {
   constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
   for (int e = begin; e < end; ++e) {
@@ -62,10 +62,12 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     if constexpr (correction == FluxCorrection::full) __builtin_prefetch(rows.Q + row::Q * next), __builtin_prefetch(rows.Q + row::Q * next + 8);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
-    const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
+    const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
+    const double C[3] = {area[0][e], area[1][e], area[2][e]};
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
+    if constexpr (areas == Areas::current) tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
     if constexpr (correction == FluxCorrection::full) tc = concat(average_traction(rows.Q + row::Q * a, rows.Q + row::Q * b, C), high(tc));
     const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
@@ -108,7 +110,8 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, const
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums, differences and products of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
 /// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone.
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
+          Areas areas = Areas::undeformed>
 NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
   constexpr int width = correction != FluxCorrection::none ? 8 : 4;
   EdgeBlock block{};
@@ -117,7 +120,7 @@ NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const R
     const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
     double* out = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
     double* flux = count < edge_block ? last : out;
-    gather_edges<reconstruction, correction, jump, fix>(begin, begin + count, edges, rows, k.theta, block, flux);
+    gather_edges<reconstruction, correction, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
     for (int at = 0; at < count; at += 8)
       finish_edges<correction, evolves_J, jump, metric, fix>(block, at, edge_sizes(edges, begin + at), k, flux + width * at);
     if (count < edge_block)
@@ -126,7 +129,7 @@ NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const R
 }
 
 /// Power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J with the plain nodal differences (paper, eq. 71; method, section 11).
-template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas>
 double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
   double power = 0;
   for (int a = part.node_begin; a < part.node_end; ++a)
@@ -136,7 +139,9 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const double* PHa = rows.PH + row::PH * a;
       const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
-      const Vec4 c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
+      Vec4 c;
+      if constexpr (areas == Areas::current) c = Vec4{edges.c[0][e], edges.c[1][e], edges.c[2][e], 0.0};
+      else c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
       const Vec4 plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a), D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a);
       const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edge_size(edges, e), plain, D, c, k);
       const Vec4 p = plain * fma(u.s.k, u.d, broadcast4(u.s.along) * c);

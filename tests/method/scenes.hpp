@@ -179,6 +179,8 @@ inline Rates rates(Simulation& s) {
   Coefficients k = s.coefficients;
   k.old_weight = 0, k.stage_weight = 0, k.dt = 1, k.acceleration = s.acceleration.data();
   Rows rows = stage_rows(u, 0, 0);
+  find_current_areas(s, rows.U_stage);
+  rows.dJ = s.current.dJ.data();
   rows.G = out.G.data(), rows.U_new = out.U.data(), rows.H_new = H.data(), rows.W_new = nullptr, rows.PH_new = nullptr;
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
@@ -188,7 +190,7 @@ inline Rates rates(Simulation& s) {
   const Scratch scratch{p, p + edge, p + edge + force};
   for (const Part& part : s.order.parts) s.functions.gradient(part, edges, corners, lists, rows, k);
   for (const Part& part : s.order.parts) {
-    s.functions.edge_flux(part, edges, corners, lists, rows, k, scratch);
+    s.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);
     s.functions.accumulate_update(part, edges, lists, rows, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
   }
   return out;

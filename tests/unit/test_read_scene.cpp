@@ -180,7 +180,6 @@ TEST(Scene, FeaturesThatAreNotBuiltAreUnknown) {
       {"end = 1", "end = 1\ndamping = 1.0", "scene.toml:11:1: time.damping = 1.0: unknown key"},
   });
   expect_each_refused(column_scene, {
-      {"upwind_metric   = \"paper\"", "description = \"total\"", "scene.toml:23:1: physics.description = \"total\": unknown key"},
   });
 }
 
