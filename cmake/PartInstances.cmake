@@ -44,6 +44,22 @@ foreach(metric deformed paper)
   endforeach()
 endforeach()
 
+# Several materials: a density a node, impedances an edge.
+foreach(reconstruction constant linear)
+  foreach(evolves_J true false)
+    set(tag ${reconstruction}_${evolves_J}_several)
+    set(traits "${evolves_J}, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Materials::several")
+    add_instance(edge_flux_${tag} edge_flux_part.hpp
+      "template void edge_flux_part<Reconstruction::${reconstruction}, FluxCorrection::none, ${traits}>(${SWEEP}, const Scratch&)\;")
+    add_instance(dissipation_${tag} edge_flux_part.hpp
+      "template double dissipation_part<Reconstruction::${reconstruction}, ${traits}>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&)\;")
+  endforeach()
+endforeach()
+foreach(formulation pF pFJ)
+  add_instance(accumulate_update_${formulation}_several accumulate_update_part.hpp
+    "template void accumulate_update_part<Formulation::${formulation}, false, Materials::several>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
+endforeach()
+
 foreach(law neo_hookean mooney_rivlin)
   add_instance(projected_stress_${law} projected_stress_part.hpp
     "template PartReport projected_stress_part<Law::${law}>(const Part&, const Rows&, const Coefficients&, const double*)\;"

@@ -51,7 +51,8 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
-  const Rows rows = stage_rows(u, from, to);
+  Rows rows = stage_rows(u, from, to);
+  rows.rho = s.mixture.rho.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
@@ -76,7 +77,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
       s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
-      if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
+      if (!projected) s.reports[p] = stress_of_part(s, p, mine, k, scratch);
     });
   });
   if (keeps && !broken(s))

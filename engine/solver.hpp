@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/clock.hpp"
+#include "engine/mixture.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
@@ -41,6 +42,7 @@ struct Simulation {
   std::vector<double> volume;             // [m^3] dual, mesh numbering
   Boundary boundary;
   State state;
+  Mixture mixture;                        // several materials only
   Projection projection;                  // pFp only
   PartFunctions functions;
   Coefficients coefficients;
@@ -63,6 +65,9 @@ struct Simulation {
   std::vector<double> initial_mismatch;   // [-] monitor.involutions: F - grad x at the start, 9 a row
   Vec3 arm_origin{};                      // [m] keep_angular_momentum: what its arms are counted from
 };
+
+/// Undeformed density of a row [kg/m^3].
+inline double density(const Simulation& s, int n) { return s.mixture.empty() ? s.coefficients.material.rho : s.mixture.rho[static_cast<std::size_t>(n)]; }
 
 /// What a run tells the outside; the engine itself touches no file.
 struct Observer {

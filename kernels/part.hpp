@@ -27,6 +27,8 @@ struct EdgeArrays {
   const std::int32_t* b;        // row of the other node
   const double* C[3];           // [m^2] area vector from a to b
   const double* size;           // [m^2] |C|
+  const double* rho_cp = nullptr;  // [kg/(m^2 s)] impedances, several materials only
+  const double* rho_cs = nullptr;
 };
 
 /// Boundary corners (a; b, c): a third of a boundary face, in rows by owning node a.
@@ -66,6 +68,7 @@ struct Rows {
   double* GP;
   double* L;
   const double* lambda;
+  const double* rho;            // [kg/m^3] a node, several materials only
   const double* loads;          // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
@@ -121,13 +124,13 @@ enum class NodeWeights { none, limiter, laplacian };
 template <bool tensor_jump, bool full_correction, NodeWeights>
 void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
-template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
+template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Materials = Materials::one>
 void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
 template <bool evolves_J>
 void edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
-template <Formulation, bool corrected>
+template <Formulation, bool corrected, Materials = Materials::one>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
@@ -138,7 +141,7 @@ template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 /// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
-template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
+template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Materials = Materials::one>
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].
