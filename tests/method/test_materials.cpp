@@ -129,18 +129,19 @@ TEST(Materials, EnergyNeverGrowsAcrossAThousandfoldJump) {
       scene.physics = p, scene.monitor.energy = true, scene.initial.twist_omega = 5;
       const TwoMaterials two(scene, rubber(), times(rubber(), j.density, j.stiffness));
       Simulation s = two.start();
-      double largest = 0;
+      double largest = 0, before = s.ledger.initial_energy, grown = 0;
       for (int i = 0; i < 400 && !s.breakdown; ++i) {
         march(s, 1);
         if (i % 10 != 9) continue;
         const Energies e = energies(s);
         largest = std::max(largest, (e.kinetic + e.strain) / s.ledger.initial_energy);
+        grown = std::max(grown, (e.kinetic + e.strain) / before - 1), before = e.kinetic + e.strain;
       }
       EXPECT_FALSE(s.breakdown) << name(p) << " " << j.density << " " << j.stiffness << s.breakdown->text;
+      EXPECT_LE(grown, 1e-6) << name(p) << " " << j.density << " " << j.stiffness;
       EXPECT_LE(largest, 1 + 1e-6) << name(p) << " " << j.density << " " << j.stiffness;
-      EXPECT_LE(energy_closure(s), 2e-3) << name(p) << " " << j.density << " " << j.stiffness;
+      EXPECT_LE(energy_closure(s), 1e-3) << name(p) << " " << j.density << " " << j.stiffness;
       EXPECT_LE(linear_momentum_drift(s), 1e-12);
-      std::printf("%s rho x %g E x %g: largest %.9f closure %.2e detF/J %.3f to %.3f\n", name(p).c_str(), j.density, j.stiffness, largest, energy_closure(s), geometry(s).min_det_F_over_J, geometry(s).max_det_F_over_J);
     }
 }
 
@@ -155,7 +156,6 @@ TEST(Materials, AuditClosesWithTheStep) {
     march(s, 1e-4 / (k + 1), 60 * (k + 1));
     residual[k] = energy_closure(s);
   }
-  std::printf("closure %.3e %.3e\n", residual[0], residual[1]);
   EXPECT_GE(residual[0] / residual[1], 3.5);
   EXPECT_LE(residual[1], 1e-3);
 }
@@ -179,8 +179,7 @@ TEST(Materials, PlasticBesideElastic) {
   EXPECT_EQ(in_elastic, 0);
   const Energies e = energies(s);
   EXPECT_LE(e.kinetic + e.strain, s.ledger.initial_energy * (1 + 1e-6));
-  std::printf("plastic closure %.2e eps_p %.3f\n", energy_closure(s), in_plastic);
-  EXPECT_LE(energy_closure(s), 1e-2);
+  EXPECT_LE(energy_closure(s), 1e-3);
 }
 
 TEST(Materials, CentreOfMassIsWeighted) {
