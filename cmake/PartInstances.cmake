@@ -63,6 +63,21 @@ foreach(material hencky_j2:quadratic:F neo_hookean:quadratic:F neo_hookean:barri
   string(APPEND CAUCHY "template PartReport cauchy_stress_part<Law::${law}, Volumetric::${volumetric}, Isochoric::${isochoric}>(const Part&, const Rows&, const Coefficients&, const double*)\;\n")
 endforeach()
 add_instance(cauchy_stress cauchy_stress_part.hpp "${CAUCHY}")
+# Several materials: a density a node, impedances an edge.
+foreach(reconstruction constant linear)
+  foreach(evolves_J true false)
+    set(tag ${reconstruction}_${evolves_J}_several)
+    set(traits "${evolves_J}, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none")
+    add_instance(edge_flux_${tag} edge_flux_part.hpp
+      "template void edge_flux_part<Reconstruction::${reconstruction}, FluxCorrection::none, ${traits}, Materials::several>(${SWEEP}, const Scratch&)\;")
+    add_instance(dissipation_${tag} edge_flux_part.hpp
+      "template double dissipation_part<Reconstruction::${reconstruction}, ${traits}, Areas::undeformed, Materials::several>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&)\;")
+  endforeach()
+endforeach()
+foreach(formulation pF pFJ)
+  add_instance(accumulate_update_${formulation}_several accumulate_update_part.hpp
+    "template void accumulate_update_part<Formulation::${formulation}, false, Areas::undeformed, Materials::several>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
+endforeach()
 
 foreach(law neo_hookean mooney_rivlin)
   add_instance(projected_stress_${law} projected_stress_part.hpp

@@ -55,6 +55,19 @@ void find_upwind(PartFunctions& f, const PhysicsSpec& p) {
   }
 }
 
+/// Several materials: what a scene needs by default, and its leaner forms.
+void find_several(PartFunctions& f, const PhysicsSpec& p) {
+  if (!takes_several_materials(p)) return;
+  const bool with_J = evolves_J(p.formulation);
+  const auto find = [&]<Reconstruction reconstruction, bool J>() {
+    f.edge_flux = edge_flux_part<reconstruction, FluxCorrection::none, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Materials::several>;
+    f.dissipation = dissipation_part<reconstruction, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Areas::undeformed, Materials::several>;
+  };
+  if (p.reconstruction == Reconstruction::linear) with_J ? find.template operator()<Reconstruction::linear, true>() : find.template operator()<Reconstruction::linear, false>();
+  else with_J ? find.template operator()<Reconstruction::constant, true>() : find.template operator()<Reconstruction::constant, false>();
+  f.accumulate_update = with_J ? accumulate_update_part<Formulation::pFJ, false, Areas::undeformed, Materials::several> : accumulate_update_part<Formulation::pF, false, Areas::undeformed, Materials::several>;
+}
+
 /// Current areas: {p,F,J}, upwind, nothing rare (method, section 8).
 bool is_built_with_current_areas(const PhysicsSpec& p) {
   return p.formulation == Formulation::pFJ && p.stabilisation == Stabilisation::upwind && p.pressure_jump == PressureJump::scalar &&
@@ -129,11 +142,19 @@ const char* const what_is_built =
     "built: upwind with constant and flux_correction none; upwind with linear or limited and flux_correction none | pressure | full; "
     "pressure_jump tensor not with limited, entropy_fix or pF; jst with linear, flux_correction none, scalar, no entropy_fix; "
     "pFp with upwind, constant or linear, scalar, flux_correction none, no entropy_fix; "
-    "description updated and pseudo_updated with pFJ, upwind, constant or linear, scalar, flux_correction none, boundary_flux adjoint, no entropy_fix, not linear_elastic";
+    "description updated and pseudo_updated with pFJ, upwind, constant or linear, scalar, flux_correction none, boundary_flux adjoint, no entropy_fix, not linear_elastic; "
+    "several materials with upwind, pF | pFJ, constant | linear, scalar, deformed, flux_correction none, no entropy_fix, keep_angular_momentum false, description total";
 
-PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material) {
+bool takes_several_materials(const PhysicsSpec& p) {
+  return p.stabilisation == Stabilisation::upwind && (p.formulation == Formulation::pF || p.formulation == Formulation::pFJ) && p.reconstruction != Reconstruction::limited &&
+         p.flux_correction == FluxCorrection::none && p.pressure_jump == PressureJump::scalar && p.upwind_metric == UpwindMetric::deformed && p.entropy_fix == EntropyFix::none &&
+         !p.keep_angular_momentum && p.description == Description::total;
+}
+
+PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material, Materials materials) {
   PartFunctions f;
-  find_sweeps(f, physics);
+  if (materials == Materials::several) find_gradient(f, physics), find_several(f, physics);
+  else find_sweeps(f, physics);
   find_material(f, physics.formulation, has_current_areas(physics.description), material);
   if (!f.edge_flux)
     throw std::invalid_argument(what_is_built);

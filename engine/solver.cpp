@@ -52,7 +52,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
   Rows rows = stage_rows(u, from, to);
-  rows.dJ = s.current.dJ.data();
+  rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
@@ -82,7 +82,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
       if (!s.manufactured.waves.empty()) add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
-      if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
+      if (!projected) s.reports[p] = stress_of_part(s, p, mine, k, scratch);
     });
   });
   if (keeps && !broken(s))

@@ -7,8 +7,9 @@
 #include <vector>
 
 #include "engine/clock.hpp"
-#include "engine/manufactured.hpp"
 #include "engine/current_geometry.hpp"
+#include "engine/manufactured.hpp"
+#include "engine/mixture.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
@@ -43,6 +44,7 @@ struct Simulation {
   std::vector<double> volume;             // [m^3] dual, mesh numbering
   Boundary boundary;
   State state;
+  Mixture mixture;                        // several materials only
   Projection projection;                  // pFp only
   Manufactured manufactured;              // its body force; empty in all other scenes
   CurrentGeometry current;                // current areas only
@@ -67,6 +69,9 @@ struct Simulation {
   std::vector<double> initial_mismatch;   // [-] monitor.involutions: F - grad x at the start, 9 a row
   Vec3 arm_origin{};                      // [m] keep_angular_momentum: what its arms are counted from
 };
+
+/// Undeformed density of a row [kg/m^3].
+inline double density(const Simulation& s, int n) { return s.mixture.empty() ? s.coefficients.material.rho : s.mixture.rho[static_cast<std::size_t>(n)]; }
 
 /// What a run tells the outside; the engine itself touches no file.
 struct Observer {

@@ -41,7 +41,7 @@ void read_root(Table& root, SceneResult& r, const fs::path& folder) {
   Scene& s = r.scene;
   if (root.require("scene", s.name) && !is_plain(s.name)) root.fail("scene", "names a folder: use letters, digits, - and _ only");
   root.require_section("mesh", [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
-  root.require_section("material", [&](Table& t) { read_material(t, s.material); });
+  read_materials(root, s);
   root.section("physics", [&](Table& t) { read_physics(t, s.physics); });
   root.section("projection", [&](Table& t) { read_projection(t, s.projection); });
   root.section("initial", [&](Table& t) { read_initial(t, s.initial); });

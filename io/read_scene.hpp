@@ -18,7 +18,7 @@ struct SceneResult {
 /// `settings` are "a.b=VALUE"; they override the file and are checked like it.
 SceneResult read_scene(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
-/// What only the mesh knows: faces that it does not name, probes outside its bounding box.
+/// What only the mesh knows: faces and regions that it does not name, regions without a material, plastic regions that touch, probes outside its bounding box.
 std::vector<std::string> check_names(const Scene& scene, const Mesh& mesh);
 
 }  // namespace nanson

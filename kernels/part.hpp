@@ -28,6 +28,8 @@ struct EdgeArrays {
   const std::int32_t* b;        // row of the other node
   const double* C[3];           // [m^2] area vector from a to b
   const double* c[3] = {};      // [m^2] current area vector from a to b, current areas only
+  const double* rho_cp = nullptr;  // [kg/(m^2 s)] impedances, several materials only
+  const double* rho_cs = nullptr;
 };
 
 /// |C| [m^2] of an edge, and of eight.
@@ -80,6 +82,7 @@ struct Rows {
   double* GP;
   double* L;
   const double* lambda;
+  const double* rho;            // [kg/m^3] a node, several materials only
   const double* loads;          // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
@@ -139,7 +142,7 @@ enum class Areas { undeformed, current };
 template <bool tensor_jump, bool full_correction, NodeWeights>
 void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
-template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
+template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Materials = Materials::one>
 void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
 template <bool evolves_J>
@@ -148,7 +151,7 @@ void edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, con
 template <Reconstruction, UpwindMetric>
 void current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
-template <Formulation, bool corrected, Areas = Areas::undeformed>
+template <Formulation, bool corrected, Areas = Areas::undeformed, Materials = Materials::one>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
@@ -162,7 +165,7 @@ template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 /// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
-template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Areas = Areas::undeformed>
+template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Areas = Areas::undeformed, Materials = Materials::one>
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].

@@ -17,6 +17,7 @@ enum class FluxCorrection { none, pressure, full };
 enum class BoundaryFlux { adjoint, paper };
 enum class UpwindMetric { deformed, paper };       // c_p max(1, |H N|) | c_p
 enum class EntropyFix { none, edge };              // edge: no stabilisation against the plain jump
+enum class Materials { one, several };             // the same density and impedances everywhere | a density a node, impedances an edge
 
 constexpr auto words(Law) { return std::array<std::string_view, 4>{"linear_elastic", "neo_hookean", "mooney_rivlin", "hencky_j2"}; }
 constexpr auto words(Volumetric) { return std::array<std::string_view, 2>{"quadratic", "barrier"}; }
