@@ -52,6 +52,7 @@ struct ReportSpec {
   double checkerboard_max = 0;                     // [-] 0: not judged
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
   std::vector<ReferencePoint> reference;
+  std::map<std::string, std::string> where;        // of every quantity that x and y name
   std::string reference_note;                      // where they were measured
 };
 

@@ -114,7 +114,9 @@ void read_reference_file(Table& t, const fs::path& file, ReportSpec& r) {
   }
 }
 
-void read_names(Table& t, std::string_view key, std::vector<std::string>& names, const std::vector<std::string>& allowed, std::string_view what) {
+/// One name or a list of them; each place is kept in `places`.
+void read_names(Table& t, std::string_view key, std::vector<std::string>& names, const std::vector<std::string>& allowed, std::string_view what,
+                std::map<std::string, std::string>* places = nullptr) {
   const toml::node* node = t.find(key);
   if (!node) return;
   std::vector<Word> read;
@@ -124,6 +126,7 @@ void read_names(Table& t, std::string_view key, std::vector<std::string>& names,
   for (const Word& w : read) {
     if (what == "quantity" && (w.text.starts_with("probes.") || w.text.starts_with("sweeps."))) {}  // known to the runs only
     else if (std::find(allowed.begin(), allowed.end(), w.text) == allowed.end()) report(t.diagnostics(), w, unknown_word(what, w.text, allowed));
+    if (places) places->emplace(w.text, fmt::format("{}: {}", where(t.diagnostics(), w.place), w.path));
     names.push_back(w.text);
   }
 }
@@ -147,11 +150,11 @@ void read_report(Table& t, Study& s, const fs::path& folder) {
   t.read("title", r.title);
   t.read("text", r.text);
   std::vector<std::string> x{r.x};
-  read_names(t, "x", x, quantities, "quantity");
+  read_names(t, "x", x, quantities, "quantity", &r.where);
   if (x.size() != 1) t.fail("x", "must be one name");
   else r.x = x[0];
   if (s.kind == StudyKind::stability && t.has("x") && std::find(keys.begin(), keys.end(), r.x) == keys.end()) t.fail("x", "must be a varied key: it is the horizontal side of the map");
-  read_names(t, "y", r.y, quantities, "quantity");
+  read_names(t, "y", r.y, quantities, "quantity", &r.where);
   for (const std::string& y : r.y)
     if (std::find(keys.begin(), keys.end(), y) != keys.end()) t.fail("y", fmt::format("{} is varied, not a result", y));
   read_names(t, "lines", r.lines, keys, "varied key");

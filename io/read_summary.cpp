@@ -75,7 +75,7 @@ class JsonReader {
   double number() {
     double v = 0;
     const auto [end, error] = std::from_chars(text_.data() + at_, text_.data() + text_.size(), v);
-    if (error != std::errc()) fail();
+    if (error != std::errc() || text_.substr(at_, 2).find_first_of("0123456789") == std::string_view::npos) fail();  // from_chars reads nan and inf too
     at_ = static_cast<std::size_t>(end - text_.data());
     return v;
   }
