@@ -69,6 +69,4 @@ ChildEnd run_child(const std::vector<std::string>& command, const std::filesyste
   return end;
 }
 
-std::filesystem::path own_program() { return std::filesystem::read_symlink("/proc/self/exe"); }
-
 }  // namespace nanson

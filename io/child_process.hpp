@@ -23,7 +23,7 @@ struct ChildLimits {
 /// reaches it once only; it is told to end when this program dies. Throws std::runtime_error when it cannot be started.
 ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& log, const ChildLimits& limits, const std::function<int()>& stop);
 
-/// This executable.
-std::filesystem::path own_program();
+/// This very program, also when its file was replaced since it was started; to be executed by a child of it, or read.
+inline constexpr const char* own_program = "/proc/self/exe";
 
 }  // namespace nanson

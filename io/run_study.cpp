@@ -30,7 +30,7 @@ constexpr const char* record_name = "run.toml";    // written last: a folder wit
 std::string program_identity(const Provenance& from) {
   const bool clean = from.commit != "unknown" && !from.commit.ends_with('+');
   std::string why;
-  return fmt::format("{} {}{}", from.version, from.commit, clean ? "" : fmt::format(" {}", text_hash(read_text_file(own_program(), why).value_or(""))));
+  return fmt::format("{} {}{}", from.version, from.commit, clean ? "" : fmt::format(" {}", text_hash(read_text_file(own_program, why).value_or(""))));
 }
 
 std::string machine_name() {
@@ -104,7 +104,6 @@ void print_result(const StudyRunResult& r) {
 /// 0, or the signal that ended the study.
 int make_runs(StudyResults& all, const std::string& program) {
   const double max_wall_s = all.study->report.max_wall_s;
-  const fs::path self = own_program();
   for (std::size_t i = 0; i < all.runs.size(); ++i) {
     const StudyRun& run = all.runs[i];
     const fs::path folder = all.folder / "runs" / run.hash;
@@ -116,7 +115,7 @@ int make_runs(StudyResults& all, const std::string& program) {
       fs::create_directories(folder);
       fs::remove(folder / record_name);
       fs::remove(folder / "summary.json"), fs::remove(folder / "history.csv");  // a child that dies early must not inherit them
-      std::vector<std::string> command{self.string()};
+      std::vector<std::string> command{own_program};
       command.insert(command.end(), run.arguments.begin(), run.arguments.end());
       command.insert(command.end(), {"--quiet", "--out", folder.string()});
       const ChildEnd end = run_child(command, folder / "log.txt", {max_wall_s, 30}, stop_signal);
@@ -128,7 +127,7 @@ int make_runs(StudyResults& all, const std::string& program) {
       if (end.code == 0 || end.code == 3 || end.too_slow) write_record(folder, run, end, program, max_wall_s);
     }
     print_result(all.results[i]);
-    fmt::print(stderr, "; {} s, ETA {}\n", duration_text(all.results[i].outcome.wall_s), time_left(all, i + 1));
+    fmt::print(stderr, "; {}, ETA {}\n", duration_text(all.results[i].outcome.wall_s), time_left(all, i + 1));
     find_rates(all);
     replace_file(all.folder / "runs.csv", study_csv(all));
     if (stop_signal() != 0) return stop_signal();

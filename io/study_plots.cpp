@@ -14,8 +14,9 @@ struct Style {
   const char* colour;
   int marker, dash;
 };
-constexpr Style styles[] = {{"#0072b2", 7, 1}, {"#d55e00", 5, 2}, {"#009e73", 9, 3}, {"#cc79a7", 11, 4}, {"#56b4e9", 6, 5}, {"#e69f00", 4, 1}, {"#000000", 8, 2}, {"#7f5539", 10, 3}, {"#5b5ea6", 13, 4}, {"#787878", 12, 5}};
-constexpr std::size_t style_count = std::size(styles);
+constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#7f5539", "#787878"};
+constexpr int markers[] = {7, 5, 9, 11, 13, 6, 4, 8, 10, 12, 2, 1, 3};  // 13 and 9 have no common factor: no two of 117 curves look alike
+Style curve_style(std::size_t i) { return {colours[i % std::size(colours)], markers[i % std::size(markers)], static_cast<int>(1 + i % 5)}; }
 
 /// One mark and one colour for each verdict, in the order of words(Verdict).
 constexpr Style verdict_styles[] = {{"#009e73", 7, 1}, {"#d55e00", 2, 1}, {"#000000", 1, 1}, {"#000000", 3, 1}, {"#cc79a7", 8, 1}, {"#e69f00", 5, 1}, {"#56b4e9", 10, 1}, {"#0072b2", 6, 1}, {"#787878", 4, 1}, {"#787878", 12, 1}};
@@ -71,6 +72,7 @@ std::vector<Curve> reference_curves(const ReportSpec& report, const std::string&
     if (!p.values.contains(x) || !p.values.contains(y)) continue;
     auto curve = std::find_if(curves.begin(), curves.end(), [&](const Curve& c) { return c.name == p.label; });
     if (curve == curves.end()) curve = curves.insert(curves.end(), Curve{p.label, {}, {}});
+    if ((report.x_scale == AxisScale::log && p.values.at(x) <= 0) || (report.y_scale == AxisScale::log && p.values.at(y) <= 0)) continue;
     curve->points.emplace_back(p.values.at(x), p.values.at(y));
   }
   return curves;
@@ -84,17 +86,35 @@ std::string axis_name(const std::string& name) {
   return name;
 }
 
-/// Slopes of order 1, 2 and 3 through the lower right corner of the data, as thin grey lines.
-std::string slope_lines(const std::vector<Curve>& curves, std::string& plots) {
-  double left = 1e300, right = 0, bottom = 1e300;
-  for (const Curve& c : curves)
-    for (const auto& [x, y] : c.points) left = std::min(left, x), right = std::max(right, x), bottom = std::min(bottom, y);
-  if (!(right > left)) return "";
-  std::string text;
-  for (const int order : {1, 2, 3}) {
-    plots += fmt::format("  {:.8g} * (x/{:.8g})**{} with lines lc \"#bbbbbb\" dt {} lw 1 title \"order {}\", \\\n", bottom, left, order, order + 1, order);
-  }
-  return text;
+/// Range and tics of a logarithmic axis: a little beyond the data, 1 2 5 where less than two decades are shown. gnuplot's own would go to whole decades.
+std::string log_axis(char axis, double low, double high) {
+  low /= 1.25, high *= 1.25;
+  std::string tics;
+  const bool fine = high / low < 200;
+  for (int k = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, k) <= high; ++k)
+    for (const int m : {1, 2, 5}) {
+      const double at = m * std::pow(10.0, k);
+      if (at < low || at > high || (m != 1 && !fine)) continue;
+      tics += fmt::format("{}\"{:g}\" {:.6g}", tics.empty() ? "" : ", ", at, at);
+    }
+  return fmt::format("set logscale {0}\nset {0}range [{1:.6g}:{2:.6g}]\nset {0}tics ({3})\n", axis, low, high, tics);
+}
+
+/// Smallest and largest of one coordinate over all curves.
+std::pair<double, double> span_of(const std::vector<Curve>& ours, const std::vector<Curve>& theirs, double std::pair<double, double>::*coordinate) {
+  std::pair<double, double> span{1e300, -1e300};
+  for (const auto* list : {&ours, &theirs})
+    for (const Curve& c : *list)
+      for (const auto& point : c.points) span = {std::min(span.first, point.*coordinate), std::max(span.second, point.*coordinate)};
+  return span;
+}
+
+/// Slopes of order 1, 2 and 3 through the lower left corner of the data, as thin grey lines.
+std::string slope_lines(const std::vector<Curve>& curves) {
+  const double left = span_of(curves, {}, &std::pair<double, double>::first).first, bottom = span_of(curves, {}, &std::pair<double, double>::second).first;
+  std::string plots;
+  for (const int order : {1, 2, 3}) plots += fmt::format("  {:.8g} * (x/{:.8g})**{} with lines lc \"#aaaaaa\" dt {} lw 1 title \"order {}\", \\\n", bottom, left, order, order + 1, order);
+  return plots;
 }
 
 /// Data blocks and the plot command for curves of ours and of others.
@@ -105,12 +125,13 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
     for (const Curve& c : *list) longest = std::max(longest, c.name.size() + (c.last_rate ? 12 : 0));
   const int columns = longest > 34 ? 1 : longest > 20 ? 2 : 3;
   std::string script = terminal(760, 430 + 22 * ((entries + columns - 1) / columns));
-  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {}\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
-  if (report.x_scale == AxisScale::log) script += "set logscale x\nset format x \"%.2g\"\n";
-  if (report.y_scale == AxisScale::log) script += "set logscale y\nset format y \"%.0e\"\n";
+  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.6\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
+  const auto [x_low, x_high] = span_of(ours, theirs, &std::pair<double, double>::first);
+  const auto [y_low, y_high] = span_of(ours, theirs, &std::pair<double, double>::second);
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
-  std::string plots;
-  if (slopes) slope_lines(ours, plots);
+  if (report.x_scale == AxisScale::log) script += log_axis('x', x_low, x_high);
+  if (report.y_scale == AxisScale::log) script += log_axis('y', y_low, y_high);
+  std::string plots = slopes ? slope_lines(ours) : "";
   std::size_t n = 0;
   const auto add = [&](const Curve& c, const char* what, const std::string& title) {
     script += fmt::format("$data{} << EOD\n", n);
@@ -119,7 +140,7 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
     plots += fmt::format("  $data{} using 1:2 with {} title {}, \\\n", n++, what, quoted(title));
   };
   for (std::size_t i = 0; i < ours.size(); ++i) {
-    const Style& s = styles[i % style_count];
+    const Style s = curve_style(i);
     std::string title = ours[i].name.empty() ? "nanson" : ours[i].name;
     if (ours[i].last_rate && slopes) title += fmt::format(" (rate {:.2f})", *ours[i].last_rate);
     add(ours[i], fmt::format("linespoints lc \"{}\" pt {} dt {} lw 2 ps 0.9", s.colour, s.marker, s.dash).c_str(), title);
@@ -172,7 +193,7 @@ void add_map(const StudyResults& all, std::vector<StudyPlot>& plots) {
   for (const std::string& column : columns) widest = std::max(widest, column.size());
   const bool turned = widest * columns.size() > 45;
   std::string script = terminal(760, static_cast<int>(150 + 34 * rows.size() + (turned ? 8 * widest : 0)));
-  script += fmt::format("set key below maxcols 4 left Left reverse samplen 1\nset border lc \"#444444\"\nset xlabel {}\nset xtics ({}){}\nset ytics ({})\nset lmargin {}\n", quoted(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
+  script += fmt::format("set key below maxcols 4 left Left reverse samplen 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.6\nset xtics ({}){}\nset ytics ({})\nset lmargin {}\n", quoted(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
   script += fmt::format("set xrange [-0.6:{}.6]\nset yrange [{}.6:-0.6]\nset grid lc \"#eeeeee\" lt 1\n", columns.size() - 1, rows.size() - 1);
   std::string plot;
   for (std::size_t v = 0; v < data.size(); ++v) {
