@@ -61,7 +61,7 @@ void judge_course(Judgement& j, const RunOutcome& run, const std::optional<Growt
     if (j.verdict == Verdict::sound) j.verdict = v, j.reason = std::move(reason);
   };
   if (g && g->first_t >= 0)
-    found(Verdict::energy_grew, fmt::format("energy exceeds the initial energy and external work from t = {:.4g} s on, by {:.3g} of them at most (allowed {:g})", g->first_t, g->largest, rules.energy_tolerance));
+    found(Verdict::energy_grew, fmt::format("more than the initial energy and external work from t = {:.4g} s on, by {:.3g} of them at most (allowed {:g})", g->first_t, g->largest, rules.energy_tolerance));
   if (j.min_det_F <= 0) found(Verdict::inverted, fmt::format("det F fell to {:.3g}", j.min_det_F));
   if (const double J = least(run.history.min_J); J <= 0) found(Verdict::inverted, fmt::format("J fell to {:.3g}", J));
   if (j.min_tet_ratio <= 0) found(Verdict::inverted, fmt::format("a tet was turned inside out: its volume fell to {:.3g} of the undeformed one", j.min_tet_ratio));
@@ -94,7 +94,7 @@ Judgement judge(const RunOutcome& run, const VerdictRules& rules) {
     j.reason = why;
     // a run that blew up ends in det F or NaN: that its energy had grown before says more
     if (status == "breakdown" && g && g->first_t >= 0 && g->first_t < run.history.t.back() && j.verdict != Verdict::iteration_limit)
-      j.reason = fmt::format("energy grew from t = {:.4g} s on; then {}", g->first_t, why), j.verdict = Verdict::energy_grew;
+      j.reason = fmt::format("more than the initial energy and external work from t = {:.4g} s on; then {}", g->first_t, why), j.verdict = Verdict::energy_grew;
     return j;
   }
   judge_course(j, run, g, rules);

@@ -96,9 +96,11 @@ std::string time_left(const StudyResults& all, std::size_t next) {
   return cost > 0 ? duration_text(seconds / cost * left) : "--";
 }
 
+/// The table has the whole reason.
 void print_result(const StudyRunResult& r) {
   const Judgement& j = r.judgement;
-  fmt::print(stderr, "{}{}{}{}", r.reused ? "made before, " : "", word(j.verdict), j.reason.empty() ? "" : ": ", j.reason);
+  const bool cut = j.reason.size() > 160;
+  fmt::print(stderr, "{}{}{}{}{}", r.reused ? "made before, " : "", word(j.verdict), j.reason.empty() ? "" : ": ", j.reason.substr(0, 160), cut ? " ..." : "");
 }
 
 /// 0, or the signal that ended the study.

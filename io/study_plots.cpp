@@ -125,7 +125,7 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
     for (const Curve& c : *list) longest = std::max(longest, c.name.size() + (c.last_rate ? 12 : 0));
   const int columns = longest > 34 ? 1 : longest > 20 ? 2 : 3;
   std::string script = terminal(760, 430 + 22 * ((entries + columns - 1) / columns));
-  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.6\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
+  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.9\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
   const auto [x_low, x_high] = span_of(ours, theirs, &std::pair<double, double>::first);
   const auto [y_low, y_high] = span_of(ours, theirs, &std::pair<double, double>::second);
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
@@ -193,7 +193,7 @@ void add_map(const StudyResults& all, std::vector<StudyPlot>& plots) {
   for (const std::string& column : columns) widest = std::max(widest, column.size());
   const bool turned = widest * columns.size() > 45;
   std::string script = terminal(760, static_cast<int>(150 + 34 * rows.size() + (turned ? 8 * widest : 0)));
-  script += fmt::format("set key below maxcols 4 left Left reverse samplen 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.6\nset xtics ({}){}\nset ytics ({})\nset lmargin {}\n", quoted(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
+  script += fmt::format("set key below maxcols 4 left Left reverse samplen 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.9\nset xtics ({}){}\nset ytics ({})\nset lmargin {}\n", quoted(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
   script += fmt::format("set xrange [-0.6:{}.6]\nset yrange [{}.6:-0.6]\nset grid lc \"#eeeeee\" lt 1\n", columns.size() - 1, rows.size() - 1);
   std::string plot;
   for (std::size_t v = 0; v < data.size(); ++v) {

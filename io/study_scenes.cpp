@@ -51,6 +51,24 @@ bool does_work(const Scene& s) {
   return std::any_of(s.boundary.begin(), s.boundary.end(), works) || std::any_of(s.body_force.begin(), s.body_force.end(), [](double g) { return g != 0; });
 }
 
+/// Files by name, then lines and columns as numbers.
+bool stands_before(const std::string& a, const std::string& b) {
+  const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+  std::size_t i = 0, j = 0;
+  while (i < a.size() && j < b.size()) {
+    if (digit(a[i]) && digit(b[j])) {
+      char *end_a = nullptr, *end_b = nullptr;
+      const unsigned long long x = std::strtoull(&a[i], &end_a, 10), y = std::strtoull(&b[j], &end_b, 10);
+      if (x != y) return x < y;
+      i = static_cast<std::size_t>(end_a - a.data()), j = static_cast<std::size_t>(end_b - b.data());
+    } else {
+      if (a[i] != b[j]) return a[i] < b[j];
+      ++i, ++j;
+    }
+  }
+  return a.size() - i < b.size() - j;
+}
+
 /// Why this scene's summary will not have the quantity; empty when it will, or may.
 std::string missing_quantity(const Scene& s, const std::string& name) {
   if (name.starts_with("errors.") && !has_exact_solution(s)) return "no exact solution of this scene is known";
@@ -100,6 +118,7 @@ std::vector<StudyRun> prepare(const Study& study, std::vector<std::string>& erro
     run.plan = std::move(planned);
     runs.push_back(std::move(run));
   }
+  std::stable_sort(errors.begin(), errors.end(), stands_before);
   return runs;
 }
 
