@@ -75,7 +75,7 @@ void read_cases(Table& root, Study& study, const fs::path& folder) {
       const auto same = [&](const StudyCase& other) { return other.name == c.name; };
       if (c.name.empty() || std::any_of(study.cases.begin(), study.cases.end(), same)) t.fail("name", "must be a name of its own");
     }
-    if (t.read("scene", scene) && t.has("scene")) c.scene = folder / scene;
+    if (t.read("scene", scene) && t.has("scene")) c.scene = (folder / scene).lexically_normal();
     read_settings(t, "set", c.settings);
     study.cases.push_back(std::move(c));
   });
@@ -191,7 +191,7 @@ void read_root(Table& root, Study& s, const fs::path& folder) {
   read_vary(root, s.vary);
   read_cases(root, s, folder);
   s.scene_where = where(root.diagnostics(), root.place("scene"));
-  if (!scene.empty()) s.scene = folder / scene;
+  if (!scene.empty()) s.scene = (folder / scene).lexically_normal();
   const auto has_own = [](const StudyCase& c) { return !c.scene.empty(); };
   const bool all_own = !s.cases.empty() && std::all_of(s.cases.begin(), s.cases.end(), has_own);
   if (!root.has("scene") && !all_own) root.missing({"scene"}, "scene: is missing, or every [[case]] needs its own");

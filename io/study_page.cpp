@@ -22,13 +22,14 @@ dl { display: grid; grid-template-columns: max-content 1fr; gap: 0.2rem 1rem; }
 dt { color: #555; }
 dd { margin: 0; }
 figure { margin: 1rem 0 2rem; }
-figure svg { width: 100%; height: auto; display: block; }
+figure svg { width: 100%; min-width: 28rem; max-width: 48rem; height: auto; display: block; }
 figcaption { color: #444; font-size: 0.9rem; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-size: 0.85rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 0.2rem 0.6rem; border-bottom: 1px solid #ddd; text-align: right; white-space: nowrap; }
 th.word, td.word { text-align: left; }
-thead th { border-bottom: 2px solid #888; vertical-align: bottom; white-space: normal; }
+thead th { border-bottom: 2px solid #888; vertical-align: bottom; }
+table { overflow-wrap: normal; }
 td.bad { font-weight: 600; }
 pre { background: #f4f4f4; padding: 0.7rem; overflow-x: auto; font-size: 0.8rem; line-height: 1.35; overflow-wrap: normal; }
 :target { background: #fff3c4; }
@@ -80,7 +81,7 @@ void add_plots(std::string& page, const std::vector<StudyPlot>& plots) {
   if (plots.empty()) page += "<p>No run came to an end with what the plots need.</p>\n";
   for (const StudyPlot& p : plots) {
     const std::string picture = p.svg.empty() ? fmt::format("<p>Not drawn: gnuplot was not there or failed. Its script is {}.gnuplot.</p>", p.name) : p.svg;
-    page += fmt::format("<figure id=\"{}\">\n{}\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n", p.name, picture, escaped(p.title), escaped(p.caption));
+    page += fmt::format("<figure id=\"{}\">\n<div class=\"scroll\">{}</div>\n<figcaption><strong>{}.</strong> {}</figcaption>\n</figure>\n", p.name, picture, escaped(p.title), escaped(p.caption));
   }
 }
 

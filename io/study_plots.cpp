@@ -33,6 +33,11 @@ std::string terminal(int width, int height) {
   return fmt::format("set encoding utf8\nset terminal svg size {},{} dynamic noenhanced font \"Helvetica,15\" background \"white\"\n", width, height);
 }
 
+std::string headline(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z' && text.find('_') > text.find(' ')) text[0] = static_cast<char>(text[0] - 'a' + 'A');
+  return text;
+}
+
 struct Curve {
   std::string name;
   std::vector<std::pair<double, double>> points;
@@ -62,7 +67,8 @@ std::vector<Curve> curves(const StudyResults& all, const std::string& x, const s
     curve->points.emplace_back(*at_x, *at_y);
     if (r.rates.contains(y)) curve->last_rate = r.rates.at(y);
   }
-  for (Curve& c : curves) std::stable_sort(c.points.begin(), c.points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  if (all.study->report.rate_over.empty())         // else the sequence of meshes is the curve
+    for (Curve& c : curves) std::stable_sort(c.points.begin(), c.points.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
   return curves;
 }
 
@@ -86,15 +92,16 @@ std::string axis_name(const std::string& name) {
   return name;
 }
 
-/// Range and tics of a logarithmic axis: a little beyond the data, 1 2 5 where less than two decades are shown. gnuplot's own would go to whole decades.
+/// Range and tics of a logarithmic axis: a little beyond the data, finer ones where little is shown. gnuplot's own would go to whole decades.
 std::string log_axis(char axis, double low, double high) {
   low /= 1.25, high *= 1.25;
   std::string tics;
-  const bool fine = high / low < 200;
+  const double ratio = high / low;
+  const std::vector<double> mantissas = ratio > 200 ? std::vector<double>{1} : ratio > 8 ? std::vector<double>{1, 2, 5} : std::vector<double>{1, 1.5, 2, 3, 4, 5, 6, 8};
   for (int k = static_cast<int>(std::floor(std::log10(low))); std::pow(10.0, k) <= high; ++k)
-    for (const int m : {1, 2, 5}) {
+    for (const double m : mantissas) {
       const double at = m * std::pow(10.0, k);
-      if (at < low || at > high || (m != 1 && !fine)) continue;
+      if (at < low || at > high) continue;
       tics += fmt::format("{}\"{:g}\" {:.6g}", tics.empty() ? "" : ", ", at, at);
     }
   return fmt::format("set logscale {0}\nset {0}range [{1:.6g}:{2:.6g}]\nset {0}tics ({3})\n", axis, low, high, tics);
@@ -123,9 +130,10 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
   std::size_t longest = 0;
   for (const auto* list : {&ours, &theirs})
     for (const Curve& c : *list) longest = std::max(longest, c.name.size() + (c.last_rate ? 12 : 0));
-  const int columns = longest > 34 ? 1 : longest > 20 ? 2 : 3;
-  std::string script = terminal(760, 430 + 22 * ((entries + columns - 1) / columns));
-  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.9\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
+  const int columns = longest > 36 ? 1 : longest > 18 ? 2 : 3;
+  const int lines = (entries + columns - 1) / columns;
+  std::string script = terminal(640, 430 + 22 * lines) + fmt::format("set bmargin {:.1f}\n", 3.6 + 1.3 * lines);
+  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.3\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
   const auto [x_low, x_high] = span_of(ours, theirs, &std::pair<double, double>::first);
   const auto [y_low, y_high] = span_of(ours, theirs, &std::pair<double, double>::second);
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
@@ -157,7 +165,7 @@ void add_curves(const StudyResults& all, const std::string& x, std::vector<Study
     if (ours.empty()) continue;
     const bool slopes = x == "h" && report.x_scale == AxisScale::log && report.y_scale == AxisScale::log;
     StudyPlot p;
-    p.title = fmt::format("{} over {}", axis_name(y), axis_name(x));
+    p.title = headline(fmt::format("{} over {}", axis_name(y), axis_name(x)));
     p.caption = slopes ? "Grey: slopes of order 1, 2 and 3. Rates: between the two finest meshes that came to their end." : "";
     if (!theirs.empty()) p.caption += fmt::format("{}Grey points: measured elsewhere{}{}.", p.caption.empty() ? "" : " ", report.reference_note.empty() ? "" : ": ", report.reference_note);
     p.script = curve_script(report, ours, theirs, x, y, slopes);
@@ -192,7 +200,7 @@ void add_map(const StudyResults& all, std::vector<StudyPlot>& plots) {
   for (const std::string& row : rows) longest = std::max(longest, row.size());
   for (const std::string& column : columns) widest = std::max(widest, column.size());
   const bool turned = widest * columns.size() > 45;
-  std::string script = terminal(760, static_cast<int>(150 + 34 * rows.size() + (turned ? 8 * widest : 0)));
+  std::string script = terminal(640, static_cast<int>(150 + 34 * rows.size() + (turned ? 8 * widest : 0)));
   script += fmt::format("set key below maxcols 4 left Left reverse samplen 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.9\nset xtics ({}){}\nset ytics ({})\nset lmargin {}\n", quoted(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
   script += fmt::format("set xrange [-0.6:{}.6]\nset yrange [{}.6:-0.6]\nset grid lc \"#eeeeee\" lt 1\n", columns.size() - 1, rows.size() - 1);
   std::string plot;
@@ -224,11 +232,11 @@ void add_bars(const StudyResults& all, std::vector<StudyPlot>& plots) {
       longest = std::max(longest, name.size()), largest = std::max(largest, *value);
     }
     if (count == 0) continue;
-    std::string script = terminal(760, static_cast<int>(110 + 34 * count));
+    std::string script = terminal(640, static_cast<int>(110 + 34 * count));
     script += fmt::format("unset key\nset border 3 lc \"#444444\"\nset xlabel {}\nset lmargin {}\nset xrange [0:{:.6g}]\nset yrange [{}.6:-0.6]\nset style fill solid 0.6 border lc \"#0072b2\"\n", quoted(axis_name(y)), longest + 3, largest > 0 ? 1.3 * largest : 1, count - 1);
     script += fmt::format("set xtics nomirror\nset ytics nomirror scale 0\n$bars << EOD\n{}EOD\n", data);
     script += "plot $bars using ($3/2):1:($3/2):(0.32):ytic(2) with boxxyerror lc \"#0072b2\", $bars using 3:1:4 with labels left offset 0.7,0\n";
-    plots.push_back({"", axis_name(y), base ? fmt::format("In brackets: times \"{}\".", baseline) : "", script, ""});
+    plots.push_back({"", headline(axis_name(y)), base ? fmt::format("In brackets: times \"{}\".", baseline) : "", script, ""});
   }
 }
 
