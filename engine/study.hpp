@@ -45,6 +45,7 @@ struct ReportSpec {
   std::string x;                                   // a key of summary.json, a quantity of the study, or a varied key
   std::vector<std::string> y;
   std::vector<std::string> lines;                  // varied keys: one curve for each combination of their values
+  std::string panels;                              // varied key: a plot for each of its values
   std::string rate_over;                           // varied key: rates between neighbours along it
   std::string baseline;                            // case that the others are compared with
   double max_wall_s = 0;                           // [s] 0: no limit

@@ -162,6 +162,11 @@ void read_report(Table& t, Study& s, const fs::path& folder) {
   read_names(t, "rate_over", over, keys, "varied key");
   if (over.size() != 1) t.fail("rate_over", "must be one name");
   else r.rate_over = over[0];
+  std::vector<std::string> panels;
+  read_names(t, "panels", panels, keys, "varied key");
+  if (panels.size() > 1) t.fail("panels", "must be one name");
+  if (!panels.empty()) r.panels = panels[0];
+  if (!r.panels.empty() && r.panels == r.x) t.fail("panels", "is report.x");
   std::vector<std::string> names;
   for (const StudyCase& c : s.cases) names.push_back(c.name);
   if (t.read("baseline", r.baseline) && t.has("baseline") && std::find(names.begin(), names.end(), r.baseline) == names.end()) t.fail("baseline", unknown_word("case", r.baseline, names));

@@ -46,20 +46,20 @@ struct Curve {
 
 std::vector<std::string> line_keys(const StudyResults& all) {
   const ReportSpec& r = all.study->report;
-  if (!r.lines.empty()) return r.lines;
-  std::vector<std::string> keys = varied_keys(*all.study);
-  std::erase_if(keys, [&](const std::string& key) { return key == r.rate_over || key == r.x; });
+  std::vector<std::string> keys = r.lines.empty() ? varied_keys(*all.study) : r.lines;
+  std::erase_if(keys, [&](const std::string& key) { return key == r.rate_over || key == r.x || key == r.panels; });
   return keys;
 }
 
 /// Curves in the order of the runs; a study that is varied in more than `lines` has several points at one x.
-std::vector<Curve> curves(const StudyResults& all, const std::string& x, const std::string& y) {
+std::vector<Curve> curves(const StudyResults& all, const std::string& panel, const std::string& x, const std::string& y) {
   std::vector<Curve> curves;
   const std::vector<std::string> keys = line_keys(all);
   for (std::size_t i = 0; i < all.runs.size(); ++i) {
     const StudyRunResult& r = all.results[i];
     const auto at_x = quantity(r, x), at_y = quantity(r, y);
     const ReportSpec& report = all.study->report;
+    if (!panel.empty() && all.runs[i].plan.varied.at(report.panels) != panel) continue;
     if (!r.ended() || !at_x || !at_y || (report.x_scale == AxisScale::log && *at_x <= 0) || (report.y_scale == AxisScale::log && *at_y <= 0)) continue;
     const std::string name = name_of(all.runs[i].plan, keys);
     auto curve = std::find_if(curves.begin(), curves.end(), [&](const Curve& c) { return c.name == name; });
@@ -130,10 +130,10 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
   std::size_t longest = 0;
   for (const auto* list : {&ours, &theirs})
     for (const Curve& c : *list) longest = std::max(longest, c.name.size() + (c.last_rate ? 12 : 0));
-  const int columns = longest > 36 ? 1 : longest > 18 ? 2 : 3;
+  const int columns = longest > 30 ? 1 : longest > 18 ? 2 : 3;
   const int lines = (entries + columns - 1) / columns;
-  std::string script = terminal(640, 430 + 22 * lines) + fmt::format("set bmargin {:.1f}\n", 3.6 + 1.3 * lines);
-  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.3\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
+  std::string script = terminal(640, 430 + 20 * lines) + fmt::format("set bmargin {:.1f}\n", 3.6 + 0.88 * lines);
+  script += fmt::format("set key below maxcols {} left Left reverse samplen 2.5 width -3 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.3\nset ylabel {}\n", columns, quoted(axis_name(x)), quoted(axis_name(y)));
   const auto [x_low, x_high] = span_of(ours, theirs, &std::pair<double, double>::first);
   const auto [y_low, y_high] = span_of(ours, theirs, &std::pair<double, double>::second);
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
@@ -154,23 +154,38 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
     add(ours[i], fmt::format("linespoints lc \"{}\" pt {} dt {} lw 2 ps 0.9", s.colour, s.marker, s.dash).c_str(), title);
   }
   for (std::size_t i = 0; i < theirs.size(); ++i)
-    add(theirs[i], fmt::format("points lc \"#444444\" pt {} lw 1.5 ps 1.1", std::array{1, 2, 3, 4, 6, 8, 10, 12, 14, 5, 7}[i % 11]).c_str(), theirs[i].name);
+    add(theirs[i], fmt::format("points pt \"{}\" font \",15\" tc rgb \"#000000\"", static_cast<char>('A' + i % 26)).c_str(), theirs[i].name);
   return script + "plot \\\n" + plots.substr(0, plots.size() - 4) + "\n";
 }
 
-void add_curves(const StudyResults& all, const std::string& x, std::vector<StudyPlot>& plots) {
+void add_panel(const StudyResults& all, const std::string& panel, const std::string& x, std::vector<StudyPlot>& plots) {
   const ReportSpec& report = all.study->report;
   for (const std::string& y : report.y) {
-    const std::vector<Curve> ours = curves(all, x, y), theirs = reference_curves(report, x, y);
+    const std::vector<Curve> ours = curves(all, panel, x, y), theirs = reference_curves(report, x, y);
     if (ours.empty()) continue;
     const bool slopes = x == "h" && report.x_scale == AxisScale::log && report.y_scale == AxisScale::log;
     StudyPlot p;
-    p.title = headline(fmt::format("{} over {}", axis_name(y), axis_name(x)));
+    p.title = headline(fmt::format("{} over {}{}", axis_name(y), axis_name(x), panel.empty() ? "" : fmt::format(": {}", readable(panel))));
     p.caption = slopes ? "Grey: slopes of order 1, 2 and 3. Rates: between the two finest meshes that came to their end." : "";
-    if (!theirs.empty()) p.caption += fmt::format("{}Grey points: measured elsewhere{}{}.", p.caption.empty() ? "" : " ", report.reference_note.empty() ? "" : ": ", report.reference_note);
+    if (!theirs.empty()) p.caption += fmt::format("{}Letters: measured elsewhere{}{}.", p.caption.empty() ? "" : " ", report.reference_note.empty() ? "" : ": ", report.reference_note);
     p.script = curve_script(report, ours, theirs, x, y, slopes);
     plots.push_back(std::move(p));
   }
+}
+
+/// All in one plot, or a plot for each value of report.panels.
+void add_curves(const StudyResults& all, const std::string& x, std::vector<StudyPlot>& plots) {
+  std::vector<std::string> panels{""};
+  for (const StudyAxis& axis : all.study->vary)
+    if (axis.key == all.study->report.panels) {
+      panels.clear();
+      for (const StudySetting& value : axis.values) panels.push_back(value.value);
+    }
+  if (all.study->report.panels == "case") {
+    panels.clear();
+    for (const StudyCase& c : all.study->cases) panels.push_back(c.name);
+  }
+  for (const std::string& panel : panels) add_panel(all, panel, x, plots);
 }
 
 /// Rows: all varied keys but x; columns: the values of x.
@@ -228,12 +243,12 @@ void add_bars(const StudyResults& all, std::vector<StudyPlot>& plots) {
       if (!all.results[i].ended() || !value) continue;
       const std::string name = name_of(all.runs[i].plan, keys);
       const std::string ratio = base && *base != 0 ? fmt::format("  ({:.2f})", *value / *base) : "";
-      data += fmt::format("{} {} {:.10g} {}\n", count++, quoted(name), *value, quoted(fmt::format("{:.3g}{}", *value, ratio)));
+      data += fmt::format("{} {} {:.10g} {}\n", count++, quoted(name), *value, quoted(fmt::format("{:.4g}{}", *value, ratio)));
       longest = std::max(longest, name.size()), largest = std::max(largest, *value);
     }
     if (count == 0) continue;
     std::string script = terminal(640, static_cast<int>(110 + 34 * count));
-    script += fmt::format("unset key\nset border 3 lc \"#444444\"\nset xlabel {}\nset lmargin {}\nset xrange [0:{:.6g}]\nset yrange [{}.6:-0.6]\nset style fill solid 0.6 border lc \"#0072b2\"\n", quoted(axis_name(y)), longest + 3, largest > 0 ? 1.3 * largest : 1, count - 1);
+    script += fmt::format("unset key\nset border 3 lc \"#444444\"\nset xlabel {}\nset lmargin {:.1f}\nset xrange [0:{:.6g}]\nset yrange [{}.6:-0.6]\nset style fill solid 0.6 border lc \"#0072b2\"\n", quoted(axis_name(y)), 0.8 * static_cast<double>(longest) + 3, largest > 0 ? (base ? 1.6 : 1.3) * largest : 1, count - 1);
     script += fmt::format("set xtics nomirror\nset ytics nomirror scale 0\n$bars << EOD\n{}EOD\n", data);
     script += "plot $bars using ($3/2):1:($3/2):(0.32):ytic(2) with boxxyerror lc \"#0072b2\", $bars using 3:1:4 with labels left offset 0.7,0\n";
     plots.push_back({"", headline(axis_name(y)), base ? fmt::format("In brackets: times \"{}\".", baseline) : "", script, ""});
