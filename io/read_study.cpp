@@ -43,6 +43,24 @@ void read_settings(Table& t, std::string_view section, std::vector<StudySetting>
   }
 }
 
+/// { from, to, count, scale }: evenly spaced values, or ratios.
+void read_range(Diagnostics& d, const toml::table& table, const std::string& path, StudyAxis& axis) {
+  double from = 0, to = 0;
+  long count = 0;
+  AxisScale scale = AxisScale::linear;
+  const std::size_t before = d.found.size();
+  Table t(table, path, d);
+  t.require("from", from), t.require("to", to), t.require("count", count, {.from = 2, .to = 1000}), t.read("scale", scale);
+  if (scale == AxisScale::log && !(from > 0 && to > 0)) t.fail("scale", "needs from and to above 0");
+  t.finish();
+  if (d.found.size() > before) return;
+  for (long i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+    const double value = i == 0 ? from : i == count - 1 ? to : scale == AxisScale::log ? from * std::pow(to / from, share) : from + share * (to - from);
+    axis.values.push_back({axis.key, toml_text(toml::value<double>{std::stod(fmt::format("{:.12g}", value))}), where(d, place_of(table.source()))});  // 0.3, not 0.30000000000000004
+  }
+}
+
 void read_vary(Table& t, std::vector<StudyAxis>& axes) {
   const toml::node* node = t.find("vary");
   if (!node) return;
@@ -52,18 +70,17 @@ void read_vary(Table& t, std::vector<StudyAxis>& axes) {
   for (const auto& [key, value] : entries_of(*table)) {
     const std::string path = fmt::format("vary.{}", shown_key(key));
     if (!is_scene_key(d, *value, path, key)) continue;
-    const auto* list = value->as_array();
-    if (!list || list->empty()) {
-      report(d, *value, path, "must be a list of values, at least one");
-      continue;
-    }
     StudyAxis axis{key, {}};
-    for (const toml::node& one : *list) {
+    const auto* list = value->as_array();
+    if (const auto* range = value->as_table()) read_range(d, *range, path, axis);
+    else if (!list || list->empty()) report(d, *value, path, "must be a list of values, at least one, or a range { from, to, count }");
+    for (std::size_t i = 0; list && i < list->size(); ++i) {
+      const toml::node& one = (*list)[i];
       axis.values.push_back({key, toml_text(one), where(d, place_of(one.source()))});
       const auto same = [&](const StudySetting& s) { return s.value == axis.values.back().value; };
       if (std::count_if(axis.values.begin(), axis.values.end(), same) > 1) report(d, one, path, "is listed twice");
     }
-    axes.push_back(std::move(axis));
+    if (!axis.values.empty()) axes.push_back(std::move(axis));
   }
 }
 

@@ -105,21 +105,21 @@ scene = "{source}/configs/twisting_column.toml"
 "time.end" = {end}
 "output.every" = 10.0
 [vary]
-"time.cfl" = [0.3, 0.29, 0.28, 0.27]
+"time.cfl" = {cfl}
 [report]
 y = "energy.closure"
 {more}
 """
 
 
-def write_slow(end, more="", n=6):
-    Path("slow.toml").write_text(SLOW.format(source=SOURCE, end=end, more=more, n=n, six_n=6 * n))
+def write_slow(end, more="", n=6, runs=2):
+    Path("slow.toml").write_text(SLOW.format(source=SOURCE, end=end, more=more, n=n, six_n=6 * n, cfl=[0.3 - 0.01 * i for i in range(runs)]))
     return "slow.toml"
 
 
 def interrupted(how, code):
-    """Ends the study in its third run, then goes on: two runs are kept, two are made."""
-    path = write_slow(0.02)
+    """Ends the study in its third run (or a later one, on a busy machine), then goes on: what was finished is kept, the rest is made."""
+    path = write_slow(0.03, runs=6)
     process = start(path)
     while len(records()) < 2:
         assert process.poll() is None, process.communicate()
@@ -128,7 +128,7 @@ def interrupted(how, code):
     out, err = process.communicate(timeout=60)
     assert process.returncode == code, (process.returncode, err)
     kept = records()
-    assert 2 <= len(kept) < 4, kept
+    assert 2 <= len(kept) < 6, kept
     if how == signal.SIGINT:
         assert "the same command goes on from there" in err, err
         assert len(rows()) == len(kept)
@@ -136,8 +136,8 @@ def interrupted(how, code):
     err = study(path)
     assert err.count("made before") == len(kept), err
     now = records()
-    assert len(now) == 4 and all(now[run] == made for run, made in kept.items())
-    assert len(rows()) == 4
+    assert len(now) == 6 and all(now[run] == made for run, made in kept.items())
+    assert len(rows()) == 6
 
 
 def test_goes_on_after_control_c():
@@ -154,18 +154,18 @@ def test_a_cut_summary_is_made_again():
     victim = next(Path("out/runs").iterdir())
     (victim / "summary.json").write_text((victim / "summary.json").read_text()[:100])
     err = study(path)
-    assert err.count("made before") == 3, err
-    assert len(rows()) == 4
+    assert err.count("made before") == 1, err
+    assert len(rows()) == 2
 
 
 def test_too_slow_is_a_verdict():
     path = write_slow(10, "max_wall_s = 0.3")
     study(path)
-    assert [r["verdict"] for r in rows()] == ["too slow"] * 4, rows()
-    assert study(path).count("made before") == 4
+    assert [r["verdict"] for r in rows()] == ["too slow"] * 2, rows()
+    assert study(path).count("made before") == 2
     err = study(write_slow(10, "max_wall_s = 0.4"))
     assert "made before" not in err, err
-    check_page(plots=0, runs=4)
+    check_page(plots=0, runs=2)
 
 
 def test_compare():

@@ -87,11 +87,28 @@ TEST(Study, EveryErrorHasItsPlace) {
 }
 
 TEST(Study, VariedKeysAreListsUnderQuotedNames) {
-  expect_errors(edited(cube_study, "[\"pF\", \"pFJ\"]", "\"pF\""), {"study.toml:7:25: vary.\"physics.formulation\" = \"pF\": must be a list of values, at least one",
+  expect_errors(edited(cube_study, "[\"pF\", \"pFJ\"]", "\"pF\""), {"study.toml:7:25: vary.\"physics.formulation\" = \"pF\": must be a list of values, at least one, or a range { from, to, count }",
                                                                 "study.toml:12:9: report.lines = \"physics.formulation\": unknown varied key"});
   expect_errors(edited(cube_study, "\"mesh.cells\" = [[2", "mesh.cells = [[2"), {"study.toml:8:1: vary.mesh: must be section and key in quotes, like \"mesh.cells\"",
                                                                               "study.toml:13:13: report.rate_over = \"mesh.cells\": unknown varied key"});
   expect_errors(edited(cube_study, "\"pF\", \"pFJ\"", "\"pF\", \"pF\""), {"study.toml:7:32: vary.\"physics.formulation\" = \"pF\": is listed twice"});
+}
+
+TEST(Study, RangesAreEvenlySpacedOrInRatios) {
+  const auto values = [](const std::string& range) {
+    std::vector<std::string> texts;
+    const Prepared p = prepared(cube_study + "[vary.\"time.end\"]\n" + range);
+    EXPECT_TRUE(p.errors.empty()) << joined(p.errors);
+    for (const StudyAxis& axis : p.read.study.vary)
+      if (axis.key == "time.end")
+        for (const StudySetting& s : axis.values) texts.push_back(s.value);
+    return texts;
+  };
+  EXPECT_EQ(values("from = 0.1\nto = 0.4\ncount = 4\n"), (std::vector<std::string>{"0.1", "0.2", "0.3", "0.4"}));
+  EXPECT_EQ(values("from = 1\nto = 100\ncount = 3\nscale = \"log\"\n"), (std::vector<std::string>{"1.0", "10.0", "100.0"}));
+  expect_errors(cube_study + "[vary.\"time.end\"]\nfrom = 0\nto = 1\ncount = 1\nscale = \"log\"\nstep = 2\n",
+                {"study.toml:18:9: vary.\"time.end\".count = 1: must be at least 2", "study.toml:19:9: vary.\"time.end\".scale = \"log\": needs from and to above 0",
+                 "study.toml:20:1: vary.\"time.end\".step = 2: unknown key"});
 }
 
 TEST(Study, UnknownQuantitiesAreRefusedBeforeAnythingRuns) {
@@ -161,6 +178,26 @@ TEST(StudyHash, ChangesWithWhatTheRunIsMadeOf) {
   EXPECT_NE(hash(edited(cube_study, "scene = ", "threads = 2\nscene = ")), base);
   EXPECT_NE(hash(cube_study, edited(cube_scene, "density = 1000", "density = 1001")), base);
   EXPECT_EQ(hash(edited(cube_study, "\"time.cfl\" = 0.25", "\"material.density\" = 1000\n\"time.cfl\" = 0.25")), base) << "set to what the scene says anyway";
+}
+
+TEST(StudyHash, ChangesWithTheContentOfTheMeshFile) {
+  const test::TemporaryFolder folder;
+  std::string mesh = test::read_text(std::string(NANSON_SOURCE_DIR) + "/configs/meshes/cantilever_cylinder.msh");
+  test::write_text(folder / "small.toml", edited(small_scene, "box = { size = [1, 2, 3] }", "file = \"mesh.msh\""));
+  test::write_text(folder / "study.toml", edited(edited(cube_study, "\"mesh.cells\" = [[2, 2, 2], [4, 4, 4]]", "\"mesh.file\" = [\"mesh.msh\"]"), "rate_over = \"mesh.cells\"\n", ""));
+  const auto hash = [&] {
+    test::write_text(folder / "mesh.msh", mesh);
+    std::vector<std::string> errors;
+    const StudyResult read = read_study(folder / "study.toml");
+    EXPECT_TRUE(read.errors.empty()) << joined(read.errors);
+    const auto runs = prepare(read.study, errors);
+    EXPECT_TRUE(errors.empty()) << joined(errors);
+    return runs.at(0).hash;
+  };
+  const std::string before = hash();
+  EXPECT_EQ(hash(), before);
+  mesh += "\n";
+  EXPECT_NE(hash(), before);
 }
 
 TEST(TomlText, IsReadBackByASetting) {
