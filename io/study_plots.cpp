@@ -167,7 +167,7 @@ void add_panel(const StudyResults& all, const std::string& panel, const std::str
     StudyPlot p;
     p.title = headline(fmt::format("{} over {}{}", axis_name(y), axis_name(x), panel.empty() ? "" : fmt::format(": {}", readable(panel))));
     p.caption = slopes ? "Grey: slopes of order 1, 2 and 3. Rates: between the two finest meshes that came to their end." : "";
-    if (!theirs.empty()) p.caption += fmt::format("{}Letters: measured elsewhere{}{}.", p.caption.empty() ? "" : " ", report.reference_note.empty() ? "" : ": ", report.reference_note);
+    if (!theirs.empty()) p.caption += fmt::format("{}Letters: measured elsewhere, as the head of this page says.", p.caption.empty() ? "" : " ");
     p.script = curve_script(report, ours, theirs, x, y, slopes);
     plots.push_back(std::move(p));
   }
