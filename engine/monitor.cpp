@@ -269,24 +269,37 @@ std::string place(const Simulation& s, int node) {
                      norm3(U[0], U[1], U[2]), fmt::join(tets, " "), fmt::join(regions, " "));
 }
 
+/// The cause as a word and in words; nothing where the row is sound.
+std::pair<std::string_view, const char*> broken_by(const double* U, bool with_J) {
+  const double d = det_F(U);
+  if (!std::isfinite(d) || !std::isfinite(norm3(U[0], U[1], U[2]))) return {"not_finite", std::isfinite(d) ? "v is not finite" : "det F is not finite"};
+  if (!(d > 0)) return {"det_F", "det F is not positive"};
+  if (with_J && std::isfinite(U[3]) && !(U[3] > 0)) return {"J", "J is not positive"};
+  if (!std::isfinite(U[3])) return {"not_finite", with_J ? "J is not finite" : "the pressure is not finite"};
+  return {"", nullptr};
+}
+
 }  // namespace
 
 Breakdown locate_breakdown(Simulation& s, int stage) {
   const bool with_J = evolves_J(s.scene->physics.formulation);
   for (int node = 0; node < s.order.nodes; ++node) {
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
-    const char* why = !(det_F(U) > 0) ? "det F is not positive" : with_J && !(U[3] > 0) ? "J is not positive" : !std::isfinite(norm3(U[0], U[1], U[2])) ? "v is not finite" : !std::isfinite(U[3]) ? "the pressure is not finite" : nullptr;
+    const auto [cause, why] = broken_by(U, with_J);
     if (why)
-      return {node, fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
-                                why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node))};
+      return {node,
+              fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
+                          why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node)),
+              cause};
   }
-  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt)};
+  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt), "not_finite"};
 }
 
 Breakdown collapse(Simulation& s, double allowed) {
   const auto worst = limiting_nodes(s, 1);
   return {worst[0].first, fmt::format("the step collapsed at step {}, t = {:.6e} s: dt = {:.3e} s is below time.dt_collapse = {:g} times the first, {:.3e} s; set by {}", s.step,
-                                      s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first))};
+                                      s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first)),
+          "dt_collapse"};
 }
 
 std::optional<std::string> energy_growth(Simulation& s) {

@@ -124,15 +124,15 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
     if (auto grown = energy_growth(s)) {
       if (s.scene->monitor.energy_growth == EnergyGrowth::warn) s.warning = *grown;
       else {
-        s.breakdown = Breakdown{-1, *grown};
+        s.breakdown = Breakdown{-1, *grown, "energy_growth"};
         reason = *grown;
         return "breakdown";
       }
     }
   if (s.scene->monitor.geometry && s.warning.empty() && s.step % s.scene->output.history_every == 0) s.warning = geometry_warning(s).value_or("");
-  if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached";
-  else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached";
-  else if (asked_to_stop) reason = asked_to_stop();
+  if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached", s.stopped_by = "max_steps";
+  else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached", s.stopped_by = "max_wall_s";
+  else if (asked_to_stop) reason = asked_to_stop(), s.stopped_by = reason.empty() ? "" : "signal";
   return reason.empty() || s.t >= time.end ? "done" : "stopped";
 }
 
@@ -150,7 +150,7 @@ void advance(Simulation& s) {
     if (!failure.empty() && !stop) s.warning = failure;
     if (broken(s) || stop) {
       if (i + 1 < count) s.state.U[0] = s.state.U[1], s.state.H[0] = s.state.H[1];
-      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure};
+      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure, "iteration_limit"};
       break;
     }
   }

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/clock.hpp"
@@ -35,6 +36,7 @@ struct Ledger {
 struct Breakdown {
   int node = -1;                          // of the mesh
   std::string text;                       // where, when and why
+  std::string_view cause;                 // det_F | J | not_finite | dt_collapse | energy_growth | iteration_limit
 };
 
 struct Simulation {
@@ -62,6 +64,7 @@ struct Simulation {
   Ledger ledger;
   Clock clock;
   std::optional<Breakdown> breakdown;
+  std::string_view stopped_by;            // max_steps | max_wall_s | signal
   std::string warning;                    // the first one that a run should show
   std::vector<double> acceleration;       // [1/s] per boundary condition: rate of the time factor over the step
   std::vector<double> part_sums;          // one a part, for sums in a fixed order

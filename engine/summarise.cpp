@@ -32,7 +32,7 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
   const Scene& scene = *s.scene;
   const PhysicsSpec& p = scene.physics;
   Summary out;
-  out.status = status, out.reason = reason, out.scene = scene.name;
+  out.status = status, out.reason = reason, out.cause = s.breakdown ? s.breakdown->cause : s.stopped_by, out.scene = scene.name;
   out.formulation = word(p.formulation), out.material = material_words(scene), out.reconstruction = word(p.reconstruction);
   out.flux_correction = word(p.flux_correction), out.boundary_flux = word(p.boundary_flux), out.upwind_metric = word(p.upwind_metric);
   out.description = word(p.description), out.stabilisation = word(p.stabilisation), out.pressure_jump = word(p.pressure_jump), out.integrator = word(scene.time.integrator), out.step = word(scene.time.step);

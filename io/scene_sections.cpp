@@ -337,6 +337,10 @@ void check_together(Table& root, const Scene& s) {
   if (sound("physics.keep_angular_momentum") && s.physics.keep_angular_momentum && sound("time.integrator") && s.time.integrator != Integrator::tvd_rk2)
     at("physics", "keep_angular_momentum", "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly");
   if (sound("initial.field") && sound("initial.length") && s.initial.field == InitialField::manufactured) check_manufactured(s, at);
+  if (sound("monitor.energy") && !s.monitor.energy) {
+    if (s.monitor.energy_growth != EnergyGrowth::warn) at("monitor", "energy_growth", "needs monitor.energy = true");
+    if (s.monitor.energy_tolerance != MonitorSpec{}.energy_tolerance) at("monitor", "energy_tolerance", "needs monitor.energy = true");
+  }
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
   const auto shows_plastic = [](const std::vector<std::string>& fields) { return std::find(fields.begin(), fields.end(), "plastic_strain") != fields.end(); };
   if (laws_sound && !has_plasticity(s)) {

@@ -85,6 +85,14 @@ TEST(Scene, MonitorsAreOffUnlessAskedForAndRefusedWhereTheyMeanNothing) {
   expect_valid(with(jst + "[monitor]\ninvolutions = true\ngeometry = true\n"));
 }
 
+TEST(Scene, EnergyIsGuardedWhereItIsMonitored) {
+  const std::string why = "needs monitor.energy = true";
+  expect_error(with("[monitor]\nenergy_growth = \"stop\"\n"), "scene.toml:12:17: monitor.energy_growth = \"stop\": " + why);
+  expect_error(with("[monitor]\nenergy_tolerance = 0.02\n"), "scene.toml:12:20: monitor.energy_tolerance = 0.02: " + why);
+  expect_valid(with("[monitor]\nenergy = true\nenergy_growth = \"stop\"\nenergy_tolerance = 0.02\n"));
+  expect_valid(with("[monitor]\nenergy_growth = \"warn\"\nenergy_tolerance = 0.01\n"));
+}
+
 TEST(Scene, ValuesHaveTheirType) {
   expect_each_refused(column_scene, {
       {"1100.0", "\"1100.0\"", "scene.toml:11:18: material.density = \"1100.0\": must be a number"},
