@@ -90,6 +90,9 @@ def main():
     X, tets = f["VTKHDF/Points"][:], f["VTKHDF/Connectivity"][:].reshape(-1, 4)
     times = f["VTKHDF/Steps/Values"][:]
     frames = o.frames or sorted({0, len(times) // 2, len(times) - 1})
+    missing = [k for k in frames if not 0 <= k < len(times)]
+    if missing:
+        sys.exit(f"{o.results}: the run has frames 0 to {len(times) - 1}, not {' '.join(map(str, missing))}")
     for name in ("displacement", o.field):
         if name not in f["frames/000000"]:
             sys.exit(f"{o.results}: the run has no field {name}; it has {' '.join(f['frames/000000'])}")
@@ -125,8 +128,9 @@ def main():
         step = np.rint(light * (LIGHTS - 1)).astype(int)
         out += paths(q[tri[front]], y[tri[front]].mean(axis=1)[:, 2], (step * SHADES + shade)[front])
     out.append("</g>")
+    magnified = f", displacement x {o.scale:g}" if o.scale != 1 else ""
     for i, k in enumerate(frames):
-        out.append(f'<text x="{i * width + width / 2:.0f}" y="{o.height - 14}" text-anchor="middle">t = {times[k]:.3g} s</text>')
+        out.append(f'<text x="{i * width + width / 2:.0f}" y="{o.height - 14}" text-anchor="middle">t = {times[k]:.3g} s{magnified}</text>')
     x0 = width * len(frames) + 14
     for j in range(60):
         c = "#%02x%02x%02x" % tuple(int(c) for c in colour(np.array([j / 59.0]))[0])
