@@ -120,7 +120,7 @@ def main():
     styles = [f".{chr(97 + l)}{s}{{fill:{c};stroke:{c}}}" for l in range(LIGHTS) for s in range(SHADES)
               for c in ["#%02x%02x%02x" % tuple(int(c) for c in colour(np.array([s / (SHADES - 1)]))[0] * (0.55 + 0.45 * l / (LIGHTS - 1)))]]
     out = [f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width * len(frames) + 130:.0f} {o.height}" font-family="sans-serif" font-size="13">',
-           '<rect width="100%" height="100%" fill="#fff"/>', f'<style>path{{stroke-width:{.7 * GRID}}}' + "".join(styles) + "</style>", f'<g transform="scale({1 / GRID})">']
+           '<rect width="100%" height="100%" fill="#fff"/>', f'<style>path{{stroke-width:{GRID};stroke-linejoin:round}}' + "".join(styles) + "</style>", f'<g transform="scale({1 / GRID})">']
     for i, (k, y, v, tri, front, light) in enumerate(shown):
         q = (y[:, :2] - least) * scale
         q = np.stack([q[:, 0] + i * width + 12, o.height - 45 - q[:, 1]], axis=1)
