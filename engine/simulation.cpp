@@ -136,7 +136,8 @@ double bytes_per_node(const Simulation& s) {
 
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
   std::vector<std::pair<int, double>> steps;
-  const Rows rows = start_rows(s, 1 - s.state.now);  // evaluates the present stress again, into the rows that the next stage overwrites
+  const int spare = s.state.W[1].empty() ? 0 : 1 - s.state.now;  // pFp keeps one set of rows
+  const Rows rows = start_rows(s, spare);            // evaluates the present stress again, into the rows that the next stage overwrites
   Aligned<double> length(8, 1e300), scratch(mixture_scratch(8), 0.0);
   for (int n = 0; n < s.order.rows; ++n) {
     const int node = s.order.node_of[static_cast<std::size_t>(n)];
