@@ -26,6 +26,7 @@ struct AnyChoice {
   bool evolves_J() const { return p.formulation != Formulation::pF; }
   bool tensor() const { return p.pressure_jump == PressureJump::tensor; }
   bool deformed() const { return p.upwind_metric == UpwindMetric::deformed; }
+  bool current() const { return has_current_areas(p.description); }
   FluxCorrection correction() const { return p.flux_correction; }
 };
 template <bool with_J>
@@ -37,10 +38,11 @@ struct Baseline {
   static constexpr bool evolves_J() { return with_J; }
   static constexpr bool tensor() { return false; }
   static constexpr bool deformed() { return true; }
+  static constexpr bool current() { return false; }
   static constexpr FluxCorrection correction() { return FluxCorrection::none; }
 };
 bool is_baseline(const AnyChoice& c) {
-  return c.linear() && !c.limited() && !c.fixed() && !c.jst() && !c.tensor() && c.deformed() && c.correction() == FluxCorrection::none;
+  return c.linear() && !c.limited() && !c.fixed() && !c.jst() && !c.tensor() && !c.current() && c.deformed() && c.correction() == FluxCorrection::none;
 }
 
 double dot(const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
@@ -199,17 +201,101 @@ std::array<double, 4> jst_dissipation(const NaiveLoop& n, const NaiveEdge& e, bo
   return out;
 }
 
+/// Adds C to the current edge between a and b, turned when that runs from b to a.
+void add_area(NaiveLoop& n, int a, int b, const Eigen::Vector3d& C) {
+  const auto at = std::lower_bound(n.current_edges.begin(), n.current_edges.end(), std::pair(std::min(a, b), std::max(a, b)),
+                                   [](const NaiveEdge& e, const std::pair<int, int>& k) { return std::pair(e.a, e.b) < k; });
+  for (int i = 0; i < 3; ++i) at->C[i] += a < b ? C[i] : -C[i];
+}
+
+/// Median dual of the current positions: in every tet, per edge, the two triangles (edge midpoint, face centroid, tet centroid), turned from a to b.
+void dual_of_x(NaiveLoop& n, const std::vector<NaiveNode>& U) {
+  for (NaiveEdge& e : n.current_edges) e.C[0] = e.C[1] = e.C[2] = 0;
+  for (const auto& t : n.tets) {
+    Eigen::Vector3d x[4];
+    for (int v = 0; v < 4; ++v) x[v] = Eigen::Vector3d(U[t[v]].x);
+    const Eigen::Vector3d middle = (x[0] + x[1] + x[2] + x[3]) / 4;
+    for (const auto& e : tet_edges) {
+      const Eigen::Vector3d m = (x[e[0]] + x[e[1]]) / 2, f = (x[e[0]] + x[e[1]] + x[e[2]]) / 3, g = (x[e[0]] + x[e[1]] + x[e[3]]) / 3;
+      add_area(n, t[e[0]], t[e[1]], 0.5 * (f - m).cross(middle - m) + 0.5 * (middle - m).cross(g - m));
+    }
+  }
+  for (std::size_t k = 0; k < n.corners.size(); ++k) {
+    const NaiveCorner& c = n.corners[k];
+    const Eigen::Vector3d a(U[c.a].x), A = (Eigen::Vector3d(U[c.b].x) - a).cross(Eigen::Vector3d(U[c.c].x) - a) / 6;
+    n.current_corners[k] = {A[0], A[1], A[2]};
+  }
+}
+
+/// H_x = cof(grad x), edges its mean times C (paper, eq. 49).
+void areas_by_map(NaiveLoop& n, const std::vector<NaiveNode>& U) {
+  add_gradients<3>(n, [&](int a) { return U[a].x; }, n.grad_x);
+  for (std::size_t a = 0; a < n.H_x.size(); ++a)
+    for (int i = 0; i < 3; ++i)
+      for (int I = 0; I < 3; ++I) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3, J = (I + 1) % 3, K = (I + 2) % 3;
+        n.H_x[a][i][I] = n.grad_x[a][j][J] * n.grad_x[a][k][K] - n.grad_x[a][j][K] * n.grad_x[a][k][J];
+      }
+  for (std::size_t k = 0; k < n.edges.size(); ++k)
+    for (int i = 0; i < 3; ++i) {
+      const NaiveEdge& e = n.edges[k];
+      n.current_edges[k].C[i] = 0.5 * (dot(n.H_x[e.a][i].data(), e.C) + dot(n.H_x[e.b][i].data(), e.C));
+    }
+}
+
+/// Area vector of a face's third at its node m, of which the corner is c: the face's own, or that of the node's map.
+Vec3 corner_area(const NaiveLoop& n, std::size_t corner, int m) {
+  if (n.H_x.empty()) return n.current_corners[corner];
+  Vec3 out;
+  for (int i = 0; i < 3; ++i) out[i] = dot(n.H_x[m][i].data(), n.corners[corner].C);
+  return out;
+}
+
+/// Current areas and what moves J: (48d) as the paper writes it; with relative velocities where the areas do not close (method, section 8).
+void current_geometry_pass(NaiveLoop& n, const std::vector<NaiveNode>& U) {
+  const bool mapped = n.scene->physics.description == Description::pseudo_updated;
+  if (mapped) areas_by_map(n, U);
+  else dual_of_x(n, U);
+  std::fill(n.dJ.begin(), n.dJ.end(), 0.0);
+  for (const NaiveEdge& e : n.current_edges)
+    for (int i = 0; i < 3; ++i) {
+      const double v_a = n.W[e.a][i], v_b = n.W[e.b][i];
+      n.dJ[e.a] += (mapped ? v_b - v_a : v_a + v_b) / 2 * e.C[i];
+      n.dJ[e.b] -= (mapped ? v_a - v_b : v_a + v_b) / 2 * e.C[i];
+    }
+  for (std::size_t k = 0; k < n.corners.size(); ++k) {
+    const NaiveCorner& c = n.corners[k];
+    const Vec3 area = corner_area(n, k, c.a);
+    for (int i = 0; i < 3; ++i) n.dJ[c.a] += ((6 * n.W[c.a][i] + n.W[c.b][i] + n.W[c.c][i]) / 8 - (mapped ? n.W[c.a][i] : 0.0)) * area[i];
+  }
+}
+
+/// Adjoint boundary flux t_a - (6 t_a + t_b + t_c)/8, t = sigma c_gamma at each of the face's nodes.
+void current_boundary_flux(NaiveLoop& n) {
+  for (std::size_t k = 0; k < n.corners.size(); ++k) {
+    const NaiveCorner& c = n.corners[k];
+    const int node[3] = {c.a, c.b, c.c};
+    const double weight[3] = {1 - 6.0 / 8, -1.0 / 8, -1.0 / 8};
+    for (int m = 0; m < 3; ++m) {
+      const Vec3 area = corner_area(n, k, node[m]);
+      for (int i = 0; i < 3; ++i) n.force[c.a][i] += weight[m] * dot(n.stress[node[m]].H[i], area.data());
+    }
+  }
+}
+
 /// P_ave C + D^p and D^J of every edge, with the flux correction (method, section 14).
 template <class Choice>
 void flux_pass(NaiveLoop& n, Choice choice) {
   std::fill(n.force.begin(), n.force.end(), std::array<double, 4>{});
   std::fill(n.dG.begin(), n.dG.end(), Table<3, 3>{});
-  for (const NaiveEdge& e : n.edges) {
+  for (const NaiveEdge& e : choice.current() ? n.current_edges : n.edges) {
     const NaiveStress &s_a = n.stress[e.a], &s_b = n.stress[e.b];
     const double D[3] = {n.X[e.b][0] - n.X[e.a][0], n.X[e.b][1] - n.X[e.a][1], n.X[e.b][2] - n.X[e.a][2]};
     double t[3], c[3];
     average_times_C(s_a.P, s_b.P, e.C, t);
     average_times_C(s_a.H, s_b.H, e.C, c);
+    if (choice.current())
+      for (int i = 0; i < 3; ++i) t[i] = c[i], c[i] = e.C[i];  // sigma stands in place of H
     std::array<double, 4> f = choice.jst() ? jst_dissipation(n, e, choice.evolves_J()) : stabilisation(n, e, choice, c, D);
     for (int i = 0; i < 3; ++i) f[i] += t[i];
     if (choice.correction() != FluxCorrection::none) {
@@ -235,7 +321,8 @@ void flux_pass(NaiveLoop& n, Choice choice) {
 /// Adjoint boundary flux (P_a - (6 P_a + P_b + P_c)/8) C_gamma (method, section 3), tractions, following pressures, body force.
 void boundary_pass(NaiveLoop& n, const std::vector<NaiveNode>& U, double t) {
   const auto P = [&](int a, int i, int I) { return n.Q.empty() ? n.stress[a].P[i][I] : n.Q[a][i][I]; };
-  if (n.scene->physics.boundary_flux == BoundaryFlux::adjoint)
+  if (has_current_areas(n.scene->physics.description)) current_boundary_flux(n);
+  else if (n.scene->physics.boundary_flux == BoundaryFlux::adjoint)
     for (const NaiveCorner& c : n.corners)
       for (int i = 0; i < 3; ++i)
         for (int I = 0; I < 3; ++I) n.force[c.a][i] += (P(c.a, i, I) - (6 * P(c.a, i, I) + P(c.b, i, I) + P(c.c, i, I)) / 8) * c.C[I];
@@ -289,8 +376,9 @@ void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<N
       for (int I = 0; I < 3; ++I) {
         G[i][I] = n.G[a][i][I];
         if (!n.dG.empty()) G[i][I] += n.dG[a][i][I] * inverse_volume;
-        if (evolves_J) dJ += n.stress[a].H[i][I] * G[i][I];
+        if (evolves_J && n.dJ.empty()) dJ += n.stress[a].H[i][I] * G[i][I];
       }
+    if (!n.dJ.empty()) dJ += n.dJ[a] * inverse_volume;
     NaiveNode& out = to[a];
     for (int i = 0; i < 3; ++i) {
       out.v[i] = w(U_old.v[i], U.v[i], n.force[a][i] * inverse_mass);
@@ -322,6 +410,7 @@ void material_pass(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std:
       for (int k = 0; k < 9; ++k) H[k / 3][k % 3] = H_of[a][k / 3][k % 3];
     const Stress<double> s = Material<law, volumetric, isochoric, formulation>::stress(F, H, U.J, m);
     for (int k = 0; k < 9; ++k) n.stress[a].P[k / 3][k % 3] = s.P[k / 3][k % 3], n.stress[a].H[k / 3][k % 3] = s.H[k / 3][k % 3];
+    for (int k = 0; k < 9 && !n.dJ.empty(); ++k) n.stress[a].H[k / 3][k % 3] = dot(n.stress[a].P[k / 3], U.F[k % 3]) / U.J;
     n.W[a] = {U.v[0], U.v[1], U.v[2], !jst ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : U.J};
     double c = std::sqrt(s.rho_c2 / m.rho);
     if (formulation != Formulation::pF && law != Law::linear_elastic) c = std::max(c, s.d2U / (m.rho * m.cp) * (deformed ? std::sqrt(s.H2) : s.H2));
@@ -427,6 +516,14 @@ NaiveLoop make_naive_loop(const Simulation& s) {
     for (int& node : f.node) node = node_of_row[node];
   allocate(n);
   if (n.scene->physics.stabilisation == Stabilisation::jst) find_lambda(n);
+  if (has_current_areas(n.scene->physics.description)) {
+    for (auto t : s.mesh->tets) {
+      for (int& node : t) node = node_of_row[s.order.row_of[node]];
+      n.tets.push_back(t);
+    }
+    n.current_edges = n.edges, n.current_corners.resize(n.corners.size()), n.dJ.resize(n.row.size());
+    if (n.scene->physics.description == Description::pseudo_updated) n.grad_x.resize(n.row.size()), n.H_x.resize(n.row.size());
+  }
   copy_state(n, s);
   material(n, n.now, n.H_now);
   return n;
@@ -442,6 +539,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   auto &H_from = number == 0 ? n.H_now : n.H_stage, &H_to = last ? n.H_now : n.H_stage;
   gradient_pass(n);
   const AnyChoice choice{n.scene->physics};
+  if (choice.current()) current_geometry_pass(n, from);
   if (!is_baseline(choice)) flux_pass(n, choice);
   else if (choice.evolves_J()) flux_pass(n, Baseline<true>{});
   else flux_pass(n, Baseline<false>{});
@@ -460,11 +558,13 @@ void naive_advance(NaiveLoop& n, double dt) {
 double naive_dissipation(NaiveLoop& n) {
   const AnyChoice choice{n.scene->physics};
   gradient_pass(n);
+  if (choice.current()) current_geometry_pass(n, n.now);
   double power = 0;
-  for (const NaiveEdge& e : n.edges) {
+  for (const NaiveEdge& e : choice.current() ? n.current_edges : n.edges) {
     const double D[3] = {n.X[e.b][0] - n.X[e.a][0], n.X[e.b][1] - n.X[e.a][1], n.X[e.b][2] - n.X[e.a][2]};
     double c[3];
     average_times_C(n.stress[e.a].H, n.stress[e.b].H, e.C, c);
+    for (int i = 0; i < 3 && choice.current(); ++i) c[i] = e.C[i];
     const std::array<double, 4> d = stabilisation(n, e, choice, c, D);
     for (int k = 0; k < 4; ++k) power += (n.W[e.b][k] - n.W[e.a][k]) * d[k];
   }
@@ -494,6 +594,7 @@ double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& node
     }
   }
   P.size = std::max(P.size, 0.1 * n.material.kappa);
+  if (!n.dJ.empty()) H.size = std::max(H.size, 0.1 * n.material.kappa);  // the Cauchy stress
   if (n.lambda.empty()) swept.size = std::max(swept.size, 0.1 * n.material.kappa);
   double worst = 0;
   for (const Field& f : {v, J, F, x, H, swept, P})

@@ -15,7 +15,7 @@ struct NaiveNode {
   double x[3];                    // [m]
 };
 struct NaiveStress {
-  double P[3][3], H[3][3];        // [Pa], [-]
+  double P[3][3], H[3][3];        // [Pa], [-]; current areas: the Cauchy stress in place of H
 };
 struct NaiveEdge {
   int a, b;
@@ -49,6 +49,11 @@ struct NaiveLoop {
   std::vector<Table<3, 3>> Q;                      // corrected stress, full correction
   std::vector<Table<3, 3>> dG;                     // correction of the velocity gradient [m^3/s], flux correction
   std::vector<std::array<double, 4>> L;            // limiter of W; its pseudo-Laplacian for jst
+  std::vector<std::array<int, 4>> tets;            // current areas
+  std::vector<NaiveEdge> current_edges;            // the same edges with c in C
+  std::vector<Vec3> current_corners;               // [m^2]
+  std::vector<Table<3, 3>> grad_x, H_x;            // pseudo_updated
+  std::vector<double> dJ;                          // [1/s] of the dual cells' motion
   std::vector<Vec3> lambda;                        // [1/m] jst
   std::vector<std::array<double, 4>> force;        // {force [N], J source [m^3/s]}
   double t = 0;                                    // [s]

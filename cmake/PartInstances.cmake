@@ -44,6 +44,41 @@ foreach(metric deformed paper)
   endforeach()
 endforeach()
 
+foreach(reconstruction constant linear)
+  foreach(metric deformed paper)
+    add_instance(current_flux_${reconstruction}_${metric} current_flux_part.hpp
+      "template void current_flux_part<Reconstruction::${reconstruction}, UpwindMetric::${metric}>(${SWEEP}, const Scratch&)\;"
+      "template double dissipation_part<Reconstruction::${reconstruction}, true, PressureJump::scalar, UpwindMetric::${metric}, EntropyFix::none, Areas::current>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&)\;")
+  endforeach()
+endforeach()
+add_instance(accumulate_update_current accumulate_update_part.hpp
+  "template void accumulate_update_part<Formulation::pFJ, false, Areas::current>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
+set(CAUCHY "")  # in one unit: each is a call of the stress and the same short loop
+foreach(material hencky_j2:quadratic:F neo_hookean:quadratic:F neo_hookean:barrier:F neo_hookean:quadratic:J neo_hookean:barrier:J
+        mooney_rivlin:quadratic:F mooney_rivlin:barrier:F mooney_rivlin:quadratic:J mooney_rivlin:barrier:J)
+  string(REPLACE ":" ";" triple ${material})
+  list(GET triple 0 law)
+  list(GET triple 1 volumetric)
+  list(GET triple 2 isochoric)
+  string(APPEND CAUCHY "template PartReport cauchy_stress_part<Law::${law}, Volumetric::${volumetric}, Isochoric::${isochoric}>(const Part&, const Rows&, const Coefficients&, const double*)\;\n")
+endforeach()
+add_instance(cauchy_stress cauchy_stress_part.hpp "${CAUCHY}")
+# Several materials: a density a node, impedances an edge.
+foreach(reconstruction constant linear)
+  foreach(evolves_J true false)
+    set(tag ${reconstruction}_${evolves_J}_several)
+    set(traits "${evolves_J}, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none")
+    add_instance(edge_flux_${tag} edge_flux_part.hpp
+      "template void edge_flux_part<Reconstruction::${reconstruction}, FluxCorrection::none, ${traits}, Materials::several>(${SWEEP}, const Scratch&)\;")
+    add_instance(dissipation_${tag} edge_flux_part.hpp
+      "template double dissipation_part<Reconstruction::${reconstruction}, ${traits}, Areas::undeformed, Materials::several>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&)\;")
+  endforeach()
+endforeach()
+foreach(formulation pF pFJ)
+  add_instance(accumulate_update_${formulation}_several accumulate_update_part.hpp
+    "template void accumulate_update_part<Formulation::${formulation}, false, Areas::undeformed, Materials::several>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
+endforeach()
+
 foreach(law neo_hookean mooney_rivlin)
   add_instance(projected_stress_${law} projected_stress_part.hpp
     "template PartReport projected_stress_part<Law::${law}>(const Part&, const Rows&, const Coefficients&, const double*)\;"

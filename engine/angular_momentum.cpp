@@ -52,8 +52,9 @@ Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about) {
     const auto sum = sums_over_parts<3>(s, [&](int p, double* out) {
       const Part& part = s.order.parts[static_cast<std::size_t>(p)];
       for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {
+        if (is_padding(s, n)) continue;
         const Vec3 r = arm(arms, n, about);
-        for (int k = 0; k < 3; ++k) out[k] += s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * n + 3)] * r[k];
+        for (int k = 0; k < 3; ++k) out[k] += density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)] * r[k];
       }
     });
     add(torque.data(), cross(sum, g));

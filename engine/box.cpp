@@ -1,4 +1,5 @@
 // The built-in box: cells of a regular grid, six tets each (Kuhn's split along a main diagonal of the cell).
+#include <algorithm>
 #include <random>
 
 #include "engine/cell_split.hpp"
@@ -49,13 +50,21 @@ Cell corners_of(const Grid& grid, const std::array<int, 3>& cell) {
   return corners;
 }
 
+/// The layer that the middle of a cell lies in.
+int layer_of(const MeshSpec& spec, const std::array<int, 3>& cell) {
+  const std::size_t k = static_cast<std::size_t>(spec.regions.axis);
+  const double middle = spec.origin[k] + spec.size[k] * (cell[k] + 0.5) / spec.cells[k];
+  const auto& at = spec.regions.at;
+  return static_cast<int>(std::lower_bound(at.begin(), at.end(), middle) - at.begin());
+}
+
 }  // namespace
 
 RawMesh make_box(const MeshSpec& spec) {
   const Grid grid{spec.cells, spec.split};
   RawMesh mesh;
   mesh.X = grid_nodes(spec);
-  mesh.region_names = {"box"};
+  mesh.region_names = spec.regions.names;
   mesh.patch_names = {"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"};
   mesh.tets.reserve(std::size_t(6) * spec.cells[0] * spec.cells[1] * spec.cells[2]);
   for (int k = 0; k < spec.cells[2]; ++k)
@@ -65,12 +74,12 @@ RawMesh make_box(const MeshSpec& spec) {
         const Cell corners = corners_of(grid, cell);
         const int mirror = grid.mirror(cell);
         add_tets(corners, mirror, mesh);
+        mesh.tet_region.resize(mesh.tets.size(), layer_of(spec, cell));
         for (int axis = 0; axis < 3; ++axis) {
           if (cell[axis] == 0) add_triangles(corners, mirror, axis, 0, 2 * axis, mesh);
           if (cell[axis] == spec.cells[axis] - 1) add_triangles(corners, mirror, axis, 1, 2 * axis + 1, mesh);
         }
       }
-  mesh.tet_region.assign(mesh.tets.size(), 0);
   return mesh;
 }
 

@@ -8,9 +8,6 @@
 namespace nanson {
 namespace {
 
-// Edges of a tet as even permutations (a, b; c, d) of its nodes: then C = (c - d) x (c + d - a - b) / 24 points from a to b.
-constexpr int tet_edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
-
 Vec3 operator-(const Vec3& p, const Vec3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
 Vec3 operator+(const Vec3& p, const Vec3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
 Vec3 cross(const Vec3& p, const Vec3& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }

@@ -7,6 +7,9 @@
 
 namespace nanson {
 
+/// Edges of a tet as even permutations (a, b; c, d) of its nodes: then C = (c - d) x (c + d - a - b) / 24 points from a to b.
+inline constexpr int tet_edges[6][4] = {{0, 1, 2, 3}, {0, 2, 3, 1}, {0, 3, 1, 2}, {1, 2, 0, 3}, {1, 3, 2, 0}, {2, 3, 0, 1}};
+
 struct DualEdge {
   int a, b;                       // a < b
   Vec3 C;                         // [m^2] from a to b

@@ -65,6 +65,7 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
   for (int k = 0; k < 9; ++k) {
     if (name == "P") out[k] = PH[8 * (k % 3) + k / 3];
     if (name == "H") out[k] = PH[8 * (k % 3) + 4 + k / 3];
+    if (name == "H" && has_current_areas(s.scene->physics.description)) out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
     if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
   }
   const auto det_F = [&] { const auto F = F_of(U); return determinant(F, cofactor(F)); };

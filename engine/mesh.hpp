@@ -41,7 +41,7 @@ struct Mesh {
 /// Corners of the face opposite each node of a right-handed tet, counter-clockwise from outside.
 inline constexpr std::array<std::array<int, 3>, 4> tet_faces{{{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}}};
 
-/// Six tets a cell; faces xmin xmax ymin ymax zmin zmax, one region "box".
+/// Six tets a cell; faces xmin xmax ymin ymax zmin zmax, one region "box" or layers along an axis.
 RawMesh make_box(const MeshSpec& spec);
 
 /// A quarter of a circular cylinder, its axis from the origin along Z: a core of m x m cells, m half the tangential ones, in a ring of radial - m layers. The split

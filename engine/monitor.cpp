@@ -27,7 +27,7 @@ double sum_over_nodes(Simulation& s, Term term) {
     const Part& part = s.order.parts[static_cast<std::size_t>(p)];
     double sum = 0;
     for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n)
-      sum += term(&s.state.U[0][static_cast<std::size_t>(row::U * n)], s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * n + 3)]);
+      if (!is_padding(s, n)) sum += term(&s.state.U[0][static_cast<std::size_t>(row::U * n)], density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)]);
     return sum;
   });
 }
@@ -53,6 +53,12 @@ Energies energies(Simulation& s) {
   Energies e;
   e.kinetic = sum_over_nodes(s, [](const double* U, double m) { return 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]); });
   e.strain = sum_over_parts(s, [&](int p) {
+    if (!s.mixture.empty()) {
+      double sum = 0;
+      for (int i = s.mixture.first_run[static_cast<std::size_t>(p)]; i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i)
+        sum += mixed_energy(s.mixture, s.mixture.runs[static_cast<std::size_t>(i)], rows, s.coefficients);
+      return sum;
+    }
     Part part = s.order.parts[static_cast<std::size_t>(p)];
     part.node_end = part.node_begin + nodes_of(s, part);
     return s.functions.strain_energy(part, rows, s.coefficients);
@@ -114,6 +120,16 @@ std::optional<double> angular_momentum_drift(Simulation& s) {
   return m.angular_scale > 0 ? norm3(m.angular[0] - L[0] - I[0], m.angular[1] - L[1] - I[1], m.angular[2] - L[2] - I[2]) / m.angular_scale : 0;
 }
 
+namespace {
+
+/// Both nodes see one material only, the same: across an interface the pressure jumps by right.
+bool same_material(const Mixture& m, int a, int b) {
+  const std::size_t group = static_cast<std::size_t>(m.group[static_cast<std::size_t>(a)]);
+  return m.group[static_cast<std::size_t>(b)] == static_cast<int>(group) && m.groups[group].size() == 1;
+}
+
+}  // namespace
+
 double checkerboard(Simulation& s) {
   Aligned<double> G(row::G * static_cast<std::size_t>(s.order.rows), 0.0);  // the state's own may be absent, or of an earlier stage
   Rows rows{};
@@ -129,6 +145,7 @@ double checkerboard(Simulation& s) {
       for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
         const int a = edges.a[e], b = edges.b[e];
         if (b < a) continue;  // the other part's copy counts
+        if (!s.mixture.empty() && !same_material(s.mixture, a, b)) continue;
         double d = rows.W[row::W * b + 3] - rows.W[row::W * a + 3], length2 = 0;
         for (int k = 0; k < 3; ++k) {
           const double D = rows.X[row::X * b + k] - rows.X[row::X * a + k];
@@ -163,7 +180,7 @@ double pressure_stabilisation_power(Simulation& s, const Rows& rows) {
 }  // namespace
 
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
-  const auto edges = s.order.edges();
+  const auto edges = flux_edges(s);
   const auto lists = s.order.lists();
   s.ledger.dissipated +=
       weighted_dt * sum_over_parts(s, [&](int p) { return s.functions.dissipation(s.order.parts[static_cast<std::size_t>(p)], edges, lists, rows, s.coefficients); });
@@ -178,8 +195,9 @@ void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
       const Part& part = s.order.parts[static_cast<std::size_t>(p)];
       double sum = 0;
       for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {  // padding falls too
+        if (is_padding(s, n)) continue;
         const double* v = rows.W + row::W * n;
-        sum += s.coefficients.material.rho / rows.X[row::X * n + 3] * (g[0] * v[0] + g[1] * v[1] + g[2] * v[2]);
+        sum += density(s, n) / rows.X[row::X * n + 3] * (g[0] * v[0] + g[1] * v[1] + g[2] * v[2]);
       }
       return sum;
     });
@@ -251,24 +269,37 @@ std::string place(const Simulation& s, int node) {
                      norm3(U[0], U[1], U[2]), fmt::join(tets, " "), fmt::join(regions, " "));
 }
 
+/// The cause as a word and in words; nothing where the row is sound.
+std::pair<std::string_view, const char*> broken_by(const double* U, bool with_J) {
+  const double d = det_F(U);
+  if (!std::isfinite(d) || !std::isfinite(norm3(U[0], U[1], U[2]))) return {"not_finite", std::isfinite(d) ? "v is not finite" : "det F is not finite"};
+  if (!(d > 0)) return {"det_F", "det F is not positive"};
+  if (with_J && std::isfinite(U[3]) && !(U[3] > 0)) return {"J", "J is not positive"};
+  if (!std::isfinite(U[3])) return {"not_finite", with_J ? "J is not finite" : "the pressure is not finite"};
+  return {"", nullptr};
+}
+
 }  // namespace
 
 Breakdown locate_breakdown(Simulation& s, int stage) {
   const bool with_J = evolves_J(s.scene->physics.formulation);
   for (int node = 0; node < s.order.nodes; ++node) {
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
-    const char* why = !(det_F(U) > 0) ? "det F is not positive" : with_J && !(U[3] > 0) ? "J is not positive" : !std::isfinite(norm3(U[0], U[1], U[2])) ? "v is not finite" : !std::isfinite(U[3]) ? "the pressure is not finite" : nullptr;
+    const auto [cause, why] = broken_by(U, with_J);
     if (why)
-      return {node, fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
-                                why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node))};
+      return {node,
+              fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
+                          why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node)),
+              cause};
   }
-  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt)};
+  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt), "not_finite"};
 }
 
 Breakdown collapse(Simulation& s, double allowed) {
   const auto worst = limiting_nodes(s, 1);
   return {worst[0].first, fmt::format("the step collapsed at step {}, t = {:.6e} s: dt = {:.3e} s is below time.dt_collapse = {:g} times the first, {:.3e} s; set by {}", s.step,
-                                      s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first))};
+                                      s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first)),
+          "dt_collapse"};
 }
 
 std::optional<std::string> energy_growth(Simulation& s) {

@@ -60,7 +60,7 @@ std::optional<double> angular_momentum_drift(Simulation& s);
 Vec3 reaction(const Simulation& s, int face);
 
 /// Checkerboard measure of the swept pressure: sqrt(sum W (p_b - p_a - (g_a + g_b)/2 . D)^2 / sum W (p_b - p_a)^2) over the edges, W = |C|/|D|, g the Green-Gauss
-/// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11).
+/// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11). Edges of interface nodes do not count.
 double checkerboard(Simulation& s);
 
 /// One stage's share of dissipation and external work, from the rows of the stage before its update.

@@ -11,7 +11,7 @@ enum Sum { total, negative, edges, sums, least = sums };
 
 /// The dissipation sweep over one edge at a time: a part of one node whose only out-edge it is.
 void add_part(const Simulation& s, const Rows& rows, const Part& part, double* out) {
-  const EdgeArrays arrays = s.order.edges();
+  const EdgeArrays arrays = flux_edges(s);
   NodeLists lists = s.order.lists();
   Part one = part;
   for (int a = part.node_begin; a < part.node_end; ++a)
@@ -30,6 +30,7 @@ void add_part(const Simulation& s, const Rows& rows, const Part& part, double* o
 
 EntropyProduction entropy_production(Simulation& s) {
   const Rows rows = stage_rows(s.state, 0, 0);
+  find_current_areas(s, rows.U_stage);
   if (s.scene->physics.reconstruction != Reconstruction::constant) {  // of the present state; the next stage computes them again
     const auto arrays = s.order.edges();
     const auto corners = s.order.corners();

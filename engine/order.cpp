@@ -107,13 +107,18 @@ std::vector<std::vector<int>> ordered_parts(const Dual& dual, int nodes, bool tr
   return parts;
 }
 
-void number_rows(Order& o, const std::vector<std::vector<int>>& parts) {
+void number_rows(Order& o, std::vector<std::vector<int>> parts, const std::vector<int>& group) {
   o.row_of.assign(static_cast<std::size_t>(o.nodes), -1);
-  for (const auto& members : parts) {
+  for (auto& members : parts) {
+    if (!group.empty()) std::stable_sort(members.begin(), members.end(), [&](int p, int q) { return group[p] < group[q]; });
     Part part{};
     part.node_begin = static_cast<int>(o.node_of.size());
-    for (int n : members) o.row_of[n] = static_cast<int>(o.node_of.size()), o.node_of.push_back(n);
-    while (o.node_of.size() % 8) o.node_of.push_back(-1);
+    const auto pad = [&] { while (o.node_of.size() % 8) o.node_of.push_back(-1); };
+    for (std::size_t i = 0; i < members.size(); ++i) {
+      if (!group.empty() && i > 0 && group[members[i]] != group[members[i - 1]]) pad();
+      o.row_of[members[i]] = static_cast<int>(o.node_of.size()), o.node_of.push_back(members[i]);
+    }
+    pad();
     part.node_end = static_cast<int>(o.node_of.size());
     o.most_nodes = std::max(o.most_nodes, part.node_end - part.node_begin);
     o.parts.push_back(part);
@@ -181,10 +186,10 @@ void place_corners(Order& o, const Dual& dual) {
 
 }  // namespace
 
-Order make_order(const Dual& dual, int nodes, bool try_metis) {
+Order make_order(const Dual& dual, int nodes, bool try_metis, const std::vector<int>& group) {
   Order o;
   o.nodes = nodes;
-  number_rows(o, ordered_parts(dual, nodes, try_metis, o.metis_failed));
+  number_rows(o, ordered_parts(dual, nodes, try_metis, o.metis_failed), group);
   place_edges(o, dual);
   place_corners(o, dual);
   for (auto& p : o.parts) {

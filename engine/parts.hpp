@@ -31,11 +31,26 @@ inline double tree_sum(std::span<const double> x) {
   return tree_sum(x.first(half)) + tree_sum(x.subspan(half));
 }
 
-/// Nodes of a part, without the padding at its end.
+/// Nodes of a part, without the padding at its end; with several materials there is padding inside too.
 inline int nodes_of(const Simulation& s, const Part& part) {
   int end = part.node_end;
   while (end > part.node_begin && s.order.node_of[static_cast<std::size_t>(end - 1)] < 0) --end;
   return end - part.node_begin;
+}
+
+inline bool is_padding(const Simulation& s, int n) { return s.order.node_of[static_cast<std::size_t>(n)] < 0; }
+
+/// Stress sweep of a part into rows.W_new, PH_new; the edge buffer is free by then.
+inline PartReport stress_of_part(const Simulation& s, int p, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+  const double* length = s.state.step_length.data();
+  if (s.mixture.empty()) return s.functions.stress(s.order.parts[static_cast<std::size_t>(p)], rows, k, length);
+  PartReport report;
+  for (int i = s.mixture.first_run[static_cast<std::size_t>(p)]; i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i) {
+    const PartReport run = mixed_stress(s.mixture, s.mixture.runs[static_cast<std::size_t>(i)], rows, k, length, scratch.edge);
+    report.fastest = run.fastest > report.fastest ? run.fastest : report.fastest;
+    report.broken = report.broken || run.broken, report.plastic_work += run.plastic_work;
+  }
+  return report;
 }
 
 /// Sum of term(part index) over all parts.

@@ -55,7 +55,44 @@ void find_upwind(PartFunctions& f, const PhysicsSpec& p) {
   }
 }
 
+/// Several materials: what a scene needs by default, and its leaner forms.
+void find_several(PartFunctions& f, const PhysicsSpec& p) {
+  if (!takes_several_materials(p)) return;
+  const bool with_J = evolves_J(p.formulation);
+  const auto find = [&]<Reconstruction reconstruction, bool J>() {
+    f.edge_flux = edge_flux_part<reconstruction, FluxCorrection::none, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Materials::several>;
+    f.dissipation = dissipation_part<reconstruction, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Areas::undeformed, Materials::several>;
+  };
+  if (p.reconstruction == Reconstruction::linear) with_J ? find.template operator()<Reconstruction::linear, true>() : find.template operator()<Reconstruction::linear, false>();
+  else with_J ? find.template operator()<Reconstruction::constant, true>() : find.template operator()<Reconstruction::constant, false>();
+  f.accumulate_update = with_J ? accumulate_update_part<Formulation::pFJ, false, Areas::undeformed, Materials::several> : accumulate_update_part<Formulation::pF, false, Areas::undeformed, Materials::several>;
+}
+
+/// Current areas: {p,F,J}, upwind, nothing rare (method, section 8).
+bool is_built_with_current_areas(const PhysicsSpec& p) {
+  return p.formulation == Formulation::pFJ && p.stabilisation == Stabilisation::upwind && p.pressure_jump == PressureJump::scalar &&
+         p.reconstruction != Reconstruction::limited && p.flux_correction == FluxCorrection::none && p.boundary_flux == BoundaryFlux::adjoint &&
+         p.entropy_fix == EntropyFix::none;
+}
+
+void find_sweeps_with_current_areas(PartFunctions& f, const PhysicsSpec& p) {
+  find_gradient(f, p);
+  with(p.reconstruction, [&]<Reconstruction reconstruction>() {
+    with(p.upwind_metric, [&]<UpwindMetric metric>() {
+      if constexpr (reconstruction != Reconstruction::limited) {
+        f.edge_flux = current_flux_part<reconstruction, metric>;
+        f.dissipation = dissipation_part<reconstruction, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>;
+      }
+    });
+  });
+  f.accumulate_update = accumulate_update_part<Formulation::pFJ, false, Areas::current>;
+}
+
 void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
+  if (has_current_areas(p.description)) {
+    if (is_built_with_current_areas(p)) find_sweeps_with_current_areas(f, p);
+    return;
+  }
   find_gradient(f, p);
   if (p.stabilisation == Stabilisation::jst) {
     f.edge_flux = evolves_J(p.formulation) ? edge_flux_jst_part<true> : edge_flux_jst_part<false>;
@@ -75,7 +112,7 @@ void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
   });
 }
 
-void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec& m) {
+void find_material(PartFunctions& f, Formulation formulation, bool current_areas, const MaterialSpec& m) {
   with(m.law, [&]<Law law>() {
     with(m.volumetric, [&]<Volumetric volumetric>() {
       with(m.isochoric, [&]<Isochoric isochoric>() {
@@ -89,6 +126,9 @@ void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec
           else {
             f.stress = stress_part<law, volumetric, isochoric, form>;
             f.strain_energy = strain_energy_part<law, volumetric, isochoric, form>;
+            if (!current_areas) return;
+            f.stress = nullptr;
+            if constexpr (form == Formulation::pFJ && law != Law::linear_elastic) f.stress = cauchy_stress_part<law, volumetric, isochoric>;
           }
         });
       });
@@ -101,16 +141,25 @@ void find_material(PartFunctions& f, Formulation formulation, const MaterialSpec
 const char* const what_is_built =
     "built: upwind with constant and flux_correction none; upwind with linear or limited and flux_correction none | pressure | full; "
     "pressure_jump tensor not with limited, entropy_fix or pF; jst with linear, flux_correction none, scalar, no entropy_fix; "
-    "pFp with upwind, constant or linear, scalar, flux_correction none, no entropy_fix";
+    "pFp with upwind, constant or linear, scalar, flux_correction none, no entropy_fix; "
+    "description updated and pseudo_updated with pFJ, upwind, constant or linear, scalar, flux_correction none, boundary_flux adjoint, no entropy_fix, not linear_elastic; "
+    "several materials with upwind, pF | pFJ, constant | linear, scalar, deformed, flux_correction none, no entropy_fix, keep_angular_momentum false, description total";
 
-PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material) {
+bool takes_several_materials(const PhysicsSpec& p) {
+  return p.stabilisation == Stabilisation::upwind && (p.formulation == Formulation::pF || p.formulation == Formulation::pFJ) && p.reconstruction != Reconstruction::limited &&
+         p.flux_correction == FluxCorrection::none && p.pressure_jump == PressureJump::scalar && p.upwind_metric == UpwindMetric::deformed && p.entropy_fix == EntropyFix::none &&
+         !p.keep_angular_momentum && p.description == Description::total;
+}
+
+PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material, Materials materials) {
   PartFunctions f;
-  find_sweeps(f, physics);
-  find_material(f, physics.formulation, material);
+  if (materials == Materials::several) find_gradient(f, physics), find_several(f, physics);
+  else find_sweeps(f, physics);
+  find_material(f, physics.formulation, has_current_areas(physics.description), material);
   if (!f.edge_flux)
     throw std::invalid_argument(what_is_built);
   if (!f.stress)
-    throw std::invalid_argument("this material is not built: linear_elastic and hencky_j2 take volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ");
+    throw std::invalid_argument("this material is not built: linear_elastic and hencky_j2 take volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ; linear_elastic needs description = \"total\"");
   return f;
 }
 

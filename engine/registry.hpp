@@ -17,6 +17,10 @@ struct PartFunctions {
 /// The combinations of physics that are compiled, in a sentence.
 extern const char* const what_is_built;
 
-PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material);
+/// With several materials: the sweeps for all of them, and stress and energy of this one.
+PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material, Materials materials = Materials::one);
+
+/// Whether the sweeps of these choices are compiled for several materials.
+bool takes_several_materials(const PhysicsSpec& physics);
 
 }  // namespace nanson

@@ -1,8 +1,10 @@
 // A scene as plain data: what io/read_scene fills in, after every check that needs no mesh. SI units throughout.
 #pragma once
+#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -16,6 +18,7 @@ using Vec3 = std::array<double, 3>;
 enum class MeshSource { box, cylinder, needle, file };
 enum class Split { alternating, kuhn };
 enum class Sector { quarter };
+enum class Axis { x, y, z };
 enum class InitialField { rest, velocity, rotation, twist, plate_mode, standing_wave, plane_wave, punch, manufactured };
 enum class InitialJ { linear, det };               // J(0) = 1 + tr(F - I) | det F
 enum class BoundaryKind { fixed, free, symmetric, skew_symmetric, traction, pressure, velocity };
@@ -29,6 +32,7 @@ enum class OnLimit { stop, warn };
 constexpr auto words(MeshSource) { return std::array<std::string_view, 4>{"box", "cylinder", "needle", "file"}; }
 constexpr auto words(Split) { return std::array<std::string_view, 2>{"alternating", "kuhn"}; }
 constexpr auto words(Sector) { return std::array<std::string_view, 1>{"quarter"}; }
+constexpr auto words(Axis) { return std::array<std::string_view, 3>{"x", "y", "z"}; }
 constexpr auto words(InitialField) {
   return std::array<std::string_view, 9>{"rest", "velocity", "rotation", "twist", "plate_mode", "standing_wave", "plane_wave", "punch", "manufactured"};
 }
@@ -47,12 +51,19 @@ struct Named {
   std::string where;
 };
 
+struct MeshRegions {                               // box: layers along an axis
+  Axis axis = Axis::x;
+  std::vector<double> at;                          // [m] growing: the planes between the layers, each between two rows of cells
+  std::vector<std::string> names;                  // one more than planes, from the lowest coordinate
+};
+
 struct MeshSpec {
   MeshSource source = MeshSource::box;
   Vec3 origin{};                                   // [m] box
   Vec3 size{};                                     // [m] box
   std::array<int, 3> cells{1, 1, 1};               // box: x y z; cylinder: radial tangential axial; needle: across across radial
   Split split = Split::alternating;                // box
+  MeshRegions regions{Axis::x, {}, {"box"}};       // box
   double perturb = 0;                              // share of a cell by which inner nodes are moved, fixed seed; box
   double radius = 0, length = 0;                   // [m] cylinder, its axis from the origin along Z
   Sector sector = Sector::quarter;                 // cylinder: X >= 0, Y >= 0
@@ -62,6 +73,7 @@ struct MeshSpec {
 };
 
 struct MaterialSpec {
+  std::vector<Named> regions;                      // of the mesh, [[material]] only
   Law law = Law::neo_hookean;
   double density = 0;                              // [kg/m^3]
   double youngs_modulus = 0;                       // [Pa]
@@ -83,6 +95,7 @@ struct PhysicsSpec {
   UpwindMetric upwind_metric = UpwindMetric::deformed;
   EntropyFix entropy_fix = EntropyFix::none;
   bool keep_angular_momentum = false;              // tvd_rk2 only
+  Description description = Description::total;
 };
 
 /// pFp only (method, section 10).
@@ -174,7 +187,8 @@ struct Scene {
   std::filesystem::path file;
   std::string text;                                // the file verbatim with the --set lines appended as comments, kept in the results
   MeshSpec mesh;
-  MaterialSpec material;
+  MaterialSpec material;                           // everywhere; the first one of several
+  std::vector<MaterialSpec> materials;             // two or more [[material]], each for regions of its own; empty with one material
   PhysicsSpec physics;
   ProjectionSpec projection;
   InitialSpec initial;
@@ -184,6 +198,13 @@ struct Scene {
   OutputSpec output;
   MonitorSpec monitor;
 };
+
+/// The materials of a scene, one or several.
+inline std::span<const MaterialSpec> materials_of(const Scene& s) { return s.materials.empty() ? std::span(&s.material, 1) : std::span(s.materials); }
+
+inline bool has_plasticity(const Scene& s) {
+  return std::ranges::any_of(materials_of(s), [](const MaterialSpec& m) { return m.law == Law::hencky_j2; });
+}
 
 /// Output field names with their number of components, in the one table that reader, writer and solver share.
 struct FieldName {

@@ -35,18 +35,19 @@ Coefficients coefficients_of(const Scene& scene) {
   return k;
 }
 
-Vec3 centre_of_mass(const Mesh& mesh, const std::vector<double>& volume) {
+Vec3 centre_of_mass(const Simulation& s) {
   Vec3 sum{};
   double total = 0;
-  for (std::size_t n = 0; n < volume.size(); ++n) {
-    total += volume[n];
-    for (int k = 0; k < 3; ++k) sum[k] += volume[n] * mesh.X[n][k];
+  for (std::size_t n = 0; n < s.volume.size(); ++n) {
+    const double weight = s.mixture.empty() ? s.volume[n] : s.volume[n] * density(s, s.order.row_of[n]);
+    total += weight;
+    for (int k = 0; k < 3; ++k) sum[k] += weight * s.mesh->X[n][k];
   }
   return {sum[0] / total, sum[1] / total, sum[2] / total};
 }
 
 void set_initial_state(Simulation& s) {
-  const Vec3 centre = centre_of_mass(*s.mesh, s.volume), middle = middle_of_box(*s.mesh);
+  const Vec3 centre = centre_of_mass(s), middle = middle_of_box(*s.mesh);
   for (int n = 0; n < s.order.nodes; ++n) {
     const PointState p = initial_state(*s.scene, middle, s.mesh->X[static_cast<std::size_t>(n)], centre);
     const std::size_t r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
@@ -67,7 +68,7 @@ void set_initial_state(Simulation& s) {
 void constrain_start(Simulation& s) {
   for (const Constraint& h : s.boundary.constraints) {
     double* v = &s.state.U[0][static_cast<std::size_t>(row::U * h.node)];
-    const double mass = s.coefficients.material.rho / s.state.X[static_cast<std::size_t>(row::X * h.node + 3)];
+    const double mass = density(s, h.node) / s.state.X[static_cast<std::size_t>(row::X * h.node + 3)];
     const double before = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     for (int m = 0; m < h.count; ++m) {
       double wanted = 0;
@@ -90,7 +91,9 @@ Rows start_rows(const Simulation& s, int to) {
 void open_ledger(Simulation& s) {
   Ledger& l = s.ledger;
   for (double V : s.volume) l.volume += V;
-  l.mass = l.volume * s.coefficients.material.rho;
+  if (s.mixture.empty()) l.mass = l.volume * s.coefficients.material.rho;
+  else
+    for (std::size_t n = 0; n < s.volume.size(); ++n) l.mass += s.volume[n] * density(s, s.order.row_of[n]);
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   l.initial_energy = e.kinetic + e.strain, l.initial_momentum = m.linear, l.initial_angular_momentum = m.angular;
@@ -103,40 +106,50 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   Simulation s;
   s.scene = &scene, s.mesh = &mesh, s.threads = std::max(1, threads);
   const Dual dual = checked_dual(mesh);
-  s.order = make_order(dual, static_cast<int>(mesh.X.size()));
+  const NodeMaterials materials = node_materials(scene, mesh);
+  s.order = make_order(dual, static_cast<int>(mesh.X.size()), true, materials.group);
   s.volume = dual.volume, s.edges = static_cast<long>(dual.edges.size());
   s.boundary = make_boundary(scene, mesh, s.order);
   s.state = make_state(scene, mesh, dual, s.order, s.boundary);
-  s.functions = find_part_functions(scene.physics, scene.material);
+  s.mixture = make_mixture(scene, materials, s.order, s.state.step_length);
+  s.functions = find_part_functions(scene.physics, scene.material, s.mixture.empty() ? Materials::one : Materials::several);
   s.coefficients = coefficients_of(scene);
   s.manufactured = make_manufactured(scene, mesh, s.order);
+  s.current = make_current_geometry(scene.physics.description, mesh, s.order);
   s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
   s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
   s.scratch.resize(static_cast<std::size_t>(s.threads));
-  for (auto& scratch : s.scratch) scratch.assign(static_cast<std::size_t>(8 * s.order.most_rows + 16 * s.order.most_nodes) + 16, 0.0);
+  for (auto& scratch : s.scratch) scratch.assign(std::max(static_cast<std::size_t>(8 * s.order.most_rows + 16 * s.order.most_nodes) + 16, mixture_scratch(s.order.most_nodes)), 0.0);
   set_initial_state(s);
   constrain_start(s);
   const Rows rows = start_rows(s, s.state.now);
-  for_parts(s, [&](int p, Scratch) { s.reports[static_cast<std::size_t>(p)] = s.functions.stress(s.order.parts[static_cast<std::size_t>(p)], rows, s.coefficients, s.state.step_length.data()); });
+  for_parts(s, [&](int p, Scratch scratch) { s.reports[static_cast<std::size_t>(p)] = stress_of_part(s, p, rows, s.coefficients, scratch); });
   open_ledger(s);
   if (scene.monitor.involutions) s.initial_mismatch = gradient_mismatch(s);
   s.setup_s = wall_seconds() - start;
   return s;
 }
 
-double bytes_per_node(const Simulation& s) { return bytes_per_node(s.state, s.order) + static_cast<double>(projection_bytes(s.projection)) / s.order.nodes; }
+double bytes_per_node(const Simulation& s) {
+  return bytes_per_node(s.state, s.order) + static_cast<double>(projection_bytes(s.projection) + current_geometry_bytes(s.current) + mixture_bytes(s.mixture, s.order)) / s.order.nodes;
+}
 
 std::vector<std::pair<int, double>> limiting_nodes(const Simulation& s, int count) {
   std::vector<std::pair<int, double>> steps;
-  const Rows rows = start_rows(s, 1 - s.state.now);  // evaluates the present stress again, into the rows that the next stage overwrites
-  Aligned<double> length(8, 1e300);
+  const int spare = s.state.W[1].empty() ? 0 : 1 - s.state.now;  // pFp keeps one set of rows
+  const Rows rows = start_rows(s, spare);            // evaluates the present stress again, into the rows that the next stage overwrites
+  Aligned<double> length(8, 1e300), scratch(mixture_scratch(8), 0.0);
   for (int n = 0; n < s.order.rows; ++n) {
     const int node = s.order.node_of[static_cast<std::size_t>(n)];
     if (node < 0) continue;
     Part eight{};
     eight.node_begin = n / 8 * 8, eight.node_end = eight.node_begin + 8;
     length[static_cast<std::size_t>(n % 8)] = s.state.step_length[static_cast<std::size_t>(n)];
-    steps.emplace_back(node, s.scene->time.cfl / s.functions.stress(eight, rows, s.coefficients, length.data() - eight.node_begin).fastest);
+    const double* lengths = length.data() - eight.node_begin;
+    const PartReport report = s.mixture.empty() ? s.functions.stress(eight, rows, s.coefficients, lengths)
+                                                : mixed_stress(s.mixture, {eight.node_begin, eight.node_end, 8, s.mixture.group[static_cast<std::size_t>(n)]}, rows, s.coefficients,
+                                                               lengths, scratch.data());
+    steps.emplace_back(node, s.scene->time.cfl / report.fastest);
     length[static_cast<std::size_t>(n % 8)] = 1e300;
   }
   const auto keep = std::min(steps.size(), static_cast<std::size_t>(count));

@@ -51,10 +51,13 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
-  const Rows rows = stage_rows(u, from, to);
+  Rows rows = stage_rows(u, from, to);
+  rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
+  const EdgeArrays flux_edges = nanson::flux_edges(s);
+  const CornerArrays flux_corners = nanson::flux_corners(s);
   const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
   const bool keeps = s.scene->physics.keep_angular_momentum;
   const double t = s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt);
@@ -64,6 +67,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
     const Vec3 sum = compute_loads(s, rows.U_stage, t);
     for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
   }
+  if (has_current_areas(s.scene->physics.description)) s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
   if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { s.functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
   if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
   s.clock.time("flux_update_stress", [&] {
@@ -74,11 +78,11 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
         mine.G = scratch.dG - row::G * static_cast<std::ptrdiff_t>(part.node_begin);
         s.functions.gradient(part, edges, corners, lists, mine, k);
       }
-      s.functions.edge_flux(part, edges, corners, lists, mine, k, scratch);
+      s.functions.edge_flux(part, flux_edges, flux_corners, lists, mine, k, scratch);
       s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
       if (!s.manufactured.waves.empty()) add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
-      if (!projected) s.reports[p] = s.functions.stress(part, mine, k, u.step_length.data());
+      if (!projected) s.reports[p] = stress_of_part(s, p, mine, k, scratch);
     });
   });
   if (keeps && !broken(s))
@@ -120,15 +124,15 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
     if (auto grown = energy_growth(s)) {
       if (s.scene->monitor.energy_growth == EnergyGrowth::warn) s.warning = *grown;
       else {
-        s.breakdown = Breakdown{-1, *grown};
+        s.breakdown = Breakdown{-1, *grown, "energy_growth"};
         reason = *grown;
         return "breakdown";
       }
     }
   if (s.scene->monitor.geometry && s.warning.empty() && s.step % s.scene->output.history_every == 0) s.warning = geometry_warning(s).value_or("");
-  if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached";
-  else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached";
-  else if (asked_to_stop) reason = asked_to_stop();
+  if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached", s.stopped_by = "max_steps";
+  else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached", s.stopped_by = "max_wall_s";
+  else if (asked_to_stop) reason = asked_to_stop(), s.stopped_by = reason.empty() ? "" : "signal";
   return reason.empty() || s.t >= time.end ? "done" : "stopped";
 }
 
@@ -146,7 +150,7 @@ void advance(Simulation& s) {
     if (!failure.empty() && !stop) s.warning = failure;
     if (broken(s) || stop) {
       if (i + 1 < count) s.state.U[0] = s.state.U[1], s.state.H[0] = s.state.H[1];
-      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure};
+      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure, "iteration_limit"};
       break;
     }
   }

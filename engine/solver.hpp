@@ -4,10 +4,13 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/clock.hpp"
+#include "engine/current_geometry.hpp"
 #include "engine/manufactured.hpp"
+#include "engine/mixture.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
 #include "engine/state.hpp"
@@ -33,6 +36,7 @@ struct Ledger {
 struct Breakdown {
   int node = -1;                          // of the mesh
   std::string text;                       // where, when and why
+  std::string_view cause;                 // det_F | J | not_finite | dt_collapse | energy_growth | iteration_limit
 };
 
 struct Simulation {
@@ -42,8 +46,10 @@ struct Simulation {
   std::vector<double> volume;             // [m^3] dual, mesh numbering
   Boundary boundary;
   State state;
+  Mixture mixture;                        // several materials only
   Projection projection;                  // pFp only
   Manufactured manufactured;              // its body force; empty in all other scenes
+  CurrentGeometry current;                // current areas only
   PartFunctions functions;
   Coefficients coefficients;
   std::vector<PartReport> reports;        // one a part
@@ -58,6 +64,7 @@ struct Simulation {
   Ledger ledger;
   Clock clock;
   std::optional<Breakdown> breakdown;
+  std::string_view stopped_by;            // max_steps | max_wall_s | signal
   std::string warning;                    // the first one that a run should show
   std::vector<double> acceleration;       // [1/s] per boundary condition: rate of the time factor over the step
   std::vector<double> part_sums;          // one a part, for sums in a fixed order
@@ -65,6 +72,9 @@ struct Simulation {
   std::vector<double> initial_mismatch;   // [-] monitor.involutions: F - grad x at the start, 9 a row
   Vec3 arm_origin{};                      // [m] keep_angular_momentum: what its arms are counted from
 };
+
+/// Undeformed density of a row [kg/m^3].
+inline double density(const Simulation& s, int n) { return s.mixture.empty() ? s.coefficients.material.rho : s.mixture.rho[static_cast<std::size_t>(n)]; }
 
 /// What a run tells the outside; the engine itself touches no file.
 struct Observer {
@@ -79,6 +89,13 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads);
 
 /// Runs to the scene's end. Returns the status: done | breakdown | stopped, with the reason in `reason`.
 std::string run(Simulation& s, const Observer& observer, std::string& reason);
+
+/// Edges and corners as fluxes see them: with the current area vectors that `find_current_areas` found last where the description has some.
+EdgeArrays flux_edges(const Simulation& s);
+CornerArrays flux_corners(const Simulation& s);
+
+/// Current area vectors of the state U (nothing to do with description = "total").
+void find_current_areas(Simulation& s, const double* U);
 
 /// One step of size s.dt.
 void advance(Simulation& s);

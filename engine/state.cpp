@@ -73,7 +73,7 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
   if (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear) s.GP.assign(row::GP * rows, 0.0);
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
   if (p.stabilisation == Stabilisation::jst) s.lambda = laplacian_weights(mesh, dual, order);
-  if (scene.material.law == Law::hencky_j2) {
+  if (has_plasticity(scene)) {
     s.plastic.assign(row::plastic * rows, 0.0);
     for (std::size_t r = 0; r < rows; ++r)
       for (std::size_t k = 0; k < 3; ++k) s.plastic[row::plastic * r + k] = 1;
@@ -109,11 +109,13 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   if (p.formulation != Formulation::pFHJ) out.push_back("H (evolved only in pFHJ): 192 bytes");
   if (!evolves_J(p.formulation)) out.push_back("evolution and stabilisation of J (pF, pFp): arithmetic only, its lanes would be padding");
   if (p.formulation != Formulation::pFp) out.push_back("projection (pFp): rows of edges and of its iteration");
+  if (!has_current_areas(p.description)) out.push_back("current dual geometry (description = total): areas of edges and faces, a sweep a stage");
   if (p.reconstruction == Reconstruction::constant && p.formulation != Formulation::pFp) out.push_back("gradients and their sweep (constant reconstruction): 96 bytes");
   if (p.flux_correction != FluxCorrection::full) out.push_back("Q and its pass (flux_correction is not full): 96 bytes");
   if (p.pressure_jump == PressureJump::scalar) out.push_back("gradient of P (scalar pressure jump): 288 bytes");
   if (p.reconstruction != Reconstruction::limited) out.push_back("limiter (reconstruction is not limited): 32 bytes");
   if (!p.keep_angular_momentum) out.push_back("angular momentum projection (keep_angular_momentum = false): two passes over the nodes a stage");
+  if (scene.materials.empty()) out.push_back("densities and material shares of nodes, impedances of edges (one material): about 150 bytes");
   if (!scene.monitor.energy) out.push_back("energy audit (monitor.energy = false): one edge sweep a stage");
   return out;
 }

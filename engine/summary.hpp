@@ -1,5 +1,6 @@
 // Everything that summary.json holds, as plain data; an empty optional is written as null.
 #pragma once
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -36,9 +37,13 @@ struct Throughput {
   std::optional<double> update_GB_s, bandwidth_share;             // measured after the run, not with --quiet; share of it [-]
 };
 
+/// The errors against an exact solution, where there is one.
+inline constexpr std::array<const char*, 6> error_names{"p1_L1", "p1_L2", "P11_L1", "P11_L2", "P11_L1_t0", "P11_L2_t0"};
+
 struct Summary {
   std::string status = "done";                                    // done | breakdown | stopped
   std::string reason;                                             // why it did not end as asked; empty when done
+  std::string cause;                                              // one word for the reason (solver.hpp); empty when done
   std::string scene, formulation, material, description = "total", stabilisation = "upwind", reconstruction, flux_correction;
   std::string boundary_flux, upwind_metric, pressure_jump, integrator, step, split;
   long nodes = 0, tets = 0, edges = 0, steps = 0;

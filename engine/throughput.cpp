@@ -34,7 +34,8 @@ std::optional<double> law_flops(const MaterialSpec& s, Formulation f) {
 
 std::optional<Throughput> throughput(const Simulation& s, double update_bandwidth) {
   const PhysicsSpec& p = s.scene->physics;
-  const auto law = p.formulation == Formulation::pFp ? std::nullopt : law_flops(s.scene->material, p.formulation);
+  const bool counted = p.formulation != Formulation::pFp && p.description == Description::total && s.mixture.empty();
+  const auto law = !counted ? std::nullopt : law_flops(s.scene->material, p.formulation);
   double seconds = 0;
   for (const SweepTime& sweep : s.clock.sweeps)
     if (sweep.sweep == "gradient" || sweep.sweep == "flux_update_stress") seconds += sweep.seconds;

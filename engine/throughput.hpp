@@ -4,7 +4,7 @@
 
 namespace nanson {
 
-/// Of the sweeps gradient and flux_update_stress; nothing where the model does not count (pFp, hencky_j2) or no step was taken.
+/// Of the sweeps gradient and flux_update_stress; nothing where the model does not count (pFp, hencky_j2, current areas, several materials) or no step was taken.
 /// `update_bandwidth` [bytes/s] as measured, 0 if it was not.
 std::optional<Throughput> throughput(const Simulation& s, double update_bandwidth);
 

@@ -21,6 +21,19 @@ void print_limits(const Simulation& s) {
   }
 }
 
+/// What each of several materials takes up.
+void print_materials(const Simulation& s) {
+  for (std::size_t m = 0; m < s.scene->materials.size(); ++m) {
+    const MaterialSpec& spec = s.scene->materials[m];
+    const MaterialConstants& c = s.mixture.laws[m].constants;
+    double volume = 0;
+    for (int n = 0; n < s.order.nodes; ++n) volume += s.volume[static_cast<std::size_t>(n)] * s.mixture.share[m][static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)])];
+    std::string regions;
+    for (const Named& region : spec.regions) regions += (regions.empty() ? "" : " ") + region.name;
+    fmt::print("material {}: {}, volume {:.6g} m^3, mass {:.6g} kg, c_p {:.6g} m/s, c_s {:.6g} m/s\n", regions, word(spec.law), volume, volume * c.rho, c.cp, c.cs);
+  }
+}
+
 /// Wall seconds of a step, best of a few: the state is thrown away afterwards.
 double timed_step(Simulation& s) {
   double best = 1e300;
@@ -41,6 +54,7 @@ int check_scene(const Loaded& loaded, int threads) {
   Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
   const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);
   fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass, s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup_s);
+  print_materials(s);
   print_limits(s);
   const double seconds = timed_step(s);
   if (s.breakdown) fmt::print("the first steps break down: {}\n", s.breakdown->text);

@@ -1,4 +1,4 @@
-// The map of the program: command line, then load, then run or check.
+// The map of the program: command line, then load, then run or check; a study starts this program again for each of its runs.
 #include <fmt/format.h>
 #include <omp.h>
 
@@ -8,6 +8,7 @@
 #include "io/provenance.hpp"
 #include "io/results_folder.hpp"
 #include "io/run.hpp"
+#include "io/run_study.hpp"
 
 namespace {
 
@@ -42,6 +43,9 @@ int main(int argc, char** argv) {
   CLI::App* run = common(app.add_subcommand("run", "run a scene; results in results/SCENE/ or in --out DIR"));
   run->add_option("--out", out, "folder for the results");
   run->add_flag("--quiet", options.quiet, "only errors and warnings");
+  CLI::App* study = app.add_subcommand("study", "run all scenes of a study, one after another; goes on where it stopped; results in results/STUDY/ or in --out DIR");
+  study->add_option("STUDY", scene, "study file (TOML)")->required();
+  study->add_option("--out", out, "folder for the results");
   CLI::App* check = common(app.add_subcommand("check", "mesh quality, step, memory and estimated time; writes nothing"));
   try {
     app.parse(argc, argv);
@@ -50,9 +54,13 @@ int main(int argc, char** argv) {
   }
   try {
     std::vector<std::string> errors;
+    if (!out.empty()) options.out = out;
+    if (study->parsed()) {
+      const int code = nanson::run_study(scene, options.out, errors);
+      return errors.empty() ? code : list_errors(errors);
+    }
     const auto loaded = nanson::load(scene, settings, errors);
     if (!loaded) return list_errors(errors);
-    if (!out.empty()) options.out = out;
     return check->parsed() ? nanson::check_scene(*loaded, options.threads) : nanson::run_scene(*loaded, options);
   } catch (const nanson::FolderError& e) {
     fmt::print(stderr, "{}\n", e.what());

@@ -12,17 +12,6 @@ struct Entry {
   BoundarySpec spec;
 };
 
-void read_faces(Table& t, std::vector<Word>& faces) {
-  const toml::node* face = t.find("face");
-  if (face && face->is_string()) {
-    faces.push_back({face->as_string()->get(), t.place("face"), t.path("face")});
-  } else if (face && !face->is_array()) {
-    t.fail("face", "must be a name or a list of names");
-  } else if (t.require("face", faces) && faces.empty()) {
-    t.fail("face", "must name at least one face");
-  }
-}
-
 /// Three numbers, where the word "free" leaves a component to the body.
 void read_velocity(Table& t, BoundarySpec& b) {
   Diagnostics& d = t.diagnostics();
@@ -66,7 +55,7 @@ void read_points(Table& t, std::vector<std::pair<double, double>>& points) {
 void read_entry(Table& t, Entry& e) {
   using enum BoundaryKind;
   BoundarySpec& b = e.spec;
-  read_faces(t, e.faces);
+  read_names(t, "face", e.faces);
   for (const Word& f : e.faces) b.faces.push_back({f.text, where(t.diagnostics(), f.place)});
   const bool known = read_kind<BoundaryKind>(t, "kind", b.kind, true, {{traction, {"t"}}, {pressure, {"p"}}, {velocity, {"v"}}});
   if (known && b.kind == traction) t.require("t", b.traction);
@@ -115,6 +104,17 @@ void check_shared_faces(const std::vector<Entry>& entries, Diagnostics& d) {
 }
 
 }  // namespace
+
+void read_names(Table& t, std::string_view key, std::vector<Word>& names) {
+  const toml::node* node = t.find(key);
+  if (node && node->is_string()) {
+    names.push_back({node->as_string()->get(), t.place(key), t.path(key)});
+  } else if (node && !node->is_array()) {
+    t.fail(key, "must be a name or a list of names");
+  } else if (t.require(key, names) && names.empty()) {
+    t.fail(key, fmt::format("must name at least one {}", key));
+  }
+}
 
 void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary) {
   std::vector<Entry> sound;

@@ -1,4 +1,4 @@
-// The [material] section: elastic constants, the keys of each law, the hardening curve.
+// The [material] section, or several [[material]]: regions, elastic constants, the keys of each law, the hardening curve.
 #include <cmath>
 
 #include "io/scene_sections.hpp"
@@ -51,8 +51,6 @@ void read_plasticity(Table& t, MaterialSpec& m) {
   }
 }
 
-}  // namespace
-
 void read_material(Table& t, MaterialSpec& m) {
   const bool law = read_kind<Law>(t, "law", m.law, true, {{Law::mooney_rivlin, {"xi"}}, {Law::hencky_j2, {"yield_stress", "hardening_modulus", "hardening"}}});
   t.require("density", m.density, {.above = 0});
@@ -70,6 +68,42 @@ void read_material(Table& t, MaterialSpec& m) {
   };
   if (volumetric && m.volumetric != MaterialSpec{}.volumetric) refuse("volumetric", word(MaterialSpec{}.volumetric));
   if (isochoric && m.isochoric != MaterialSpec{}.isochoric) refuse("isochoric", word(MaterialSpec{}.isochoric));
+}
+
+/// No region twice.
+void check_shared_regions(const std::vector<Word>& regions, Diagnostics& d) {
+  for (std::size_t i = 0; i < regions.size(); ++i)
+    for (std::size_t k = 0; k < i; ++k)
+      if (regions[k].text == regions[i].text) {
+        report(d, regions[i], fmt::format("has the material of {} already", where(d, regions[k].place)));
+        break;
+      }
+}
+
+}  // namespace
+
+void read_materials(Table& root, Scene& s) {
+  const toml::node* node = root.require_node("material");
+  if (!node) return;
+  if (!node->is_array())
+    return root.section("material", [&](Table& t) {
+      if (t.has("region")) t.fail("region", "is a key of [[material]] only, [material] is that of the whole mesh");
+      read_material(t, s.material);
+    });
+  std::vector<Word> regions;
+  root.list("material", [&](Table& t) {
+    MaterialSpec m;
+    std::vector<Word> own;
+    read_names(t, "region", own);
+    for (const Word& w : own) m.regions.push_back({w.text, where(t.diagnostics(), w.place)});
+    regions.insert(regions.end(), own.begin(), own.end());
+    read_material(t, m);
+    s.materials.push_back(std::move(m));
+  });
+  check_shared_regions(regions, root.diagnostics());
+  if (s.materials.empty()) return root.fail("material", "must be a table [material], or a list of at least one [[material]]");
+  s.material = s.materials[0];
+  if (s.materials.size() == 1) s.materials.clear();
 }
 
 }  // namespace nanson

@@ -2,31 +2,18 @@
 #include "io/read_scene.hpp"
 
 #include <algorithm>
-#include <fstream>
 #include <optional>
+#include <sstream>
 
 #include "io/scene_sections.hpp"
 #include "io/settings.hpp"
+#include "io/text_file.hpp"
 
 namespace nanson {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-std::optional<std::string> read_text(const fs::path& file, std::string& why) {
-  std::error_code error;
-  const fs::file_status status = fs::status(file, error);
-  if (!fs::exists(status)) why = "no such file";
-  else if (!fs::is_regular_file(status)) why = "is not a file";
-  if (!why.empty()) return std::nullopt;
-  const std::uintmax_t size = fs::file_size(file, error);
-  std::string text(error ? 0 : size, '\0');
-  std::ifstream in(file, std::ios::binary);
-  if (in.read(text.data(), static_cast<std::streamsize>(text.size())) && !error) return text;
-  why = "cannot be read";
-  return std::nullopt;
-}
 
 std::optional<toml::table> parse_text(const std::string& text, Diagnostics& d) {
   try {
@@ -41,7 +28,7 @@ void read_root(Table& root, SceneResult& r, const fs::path& folder) {
   Scene& s = r.scene;
   if (root.require("scene", s.name) && !is_plain(s.name)) root.fail("scene", "names a folder: use letters, digits, - and _ only");
   root.require_section("mesh", [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
-  root.require_section("material", [&](Table& t) { read_material(t, s.material); });
+  read_materials(root, s);
   root.section("physics", [&](Table& t) { read_physics(t, s.physics); });
   root.section("projection", [&](Table& t) { read_projection(t, s.projection); });
   root.section("initial", [&](Table& t) { read_initial(t, s.initial); });
@@ -65,7 +52,7 @@ SceneResult read_scene(const fs::path& file, const std::vector<std::string>& set
 
   std::string why;
   std::vector<Setting> parsed = parse_settings(settings, d);
-  std::optional<std::string> text = read_text(file, why);
+  std::optional<std::string> text = read_text_file(file, why);
   if (!text) {
     r.errors = listed(d);
     r.errors.insert(r.errors.begin(), d.file + ": " + why);  // it has no line
@@ -77,6 +64,9 @@ SceneResult read_scene(const fs::path& file, const std::vector<std::string>& set
 
   if (std::optional<toml::table> tree = parse_text(*text, d)) {
     for (Setting& s : parsed) apply(*tree, std::move(s), d);
+    std::ostringstream resolved;
+    resolved << toml::toml_formatter{*tree};       // keys sorted, comments gone
+    r.resolved = resolved.str();
     Table root(*tree, "", d);
     read_root(root, r, file.parent_path());
     root.finish();

@@ -86,23 +86,25 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
     n.require("angle", m.angle, {.above = 0, .to = 90});
   });
   read_mesh_file(t, m, folder);
-  if (m.source == MeshSource::file) return t.only("file", {}, std::array<std::string_view, 3>{"cells", "split", "perturb"});
+  if (m.source == MeshSource::file) return t.only("file", {}, std::array<std::string_view, 4>{"cells", "split", "perturb", "regions"});
   if (m.source == MeshSource::cylinder) {
-    t.only("cylinder", {}, std::array<std::string_view, 2>{"split", "perturb"});
+    t.only("cylinder", {}, std::array<std::string_view, 3>{"split", "perturb", "regions"});
     return read_cylinder_cells(t, m);
   }
   if (m.source == MeshSource::needle) {
-    t.only("needle", {}, std::array<std::string_view, 2>{"split", "perturb"});
+    t.only("needle", {}, std::array<std::string_view, 3>{"split", "perturb", "regions"});
     if (t.require("cells", m.cells, {.from = 1})) check_count(t, m.cells);
     return;
   }
   if (t.read("cells", m.cells, {.from = 1})) check_count(t, m.cells);
   t.read("split", m.split);
   t.read("perturb", m.perturb, {.from = 0, .to = 0.4});
+  read_regions(t, m);
 }
 
 void read_physics(Table& t, PhysicsSpec& p) {
   t.read("formulation", p.formulation);
+  t.read("description", p.description);
   t.read("stabilisation", p.stabilisation);
   t.read("pressure_jump", p.pressure_jump);
   t.read("reconstruction", p.reconstruction);
@@ -196,12 +198,33 @@ void read_monitor(Table& t, MonitorSpec& m) {
 
 namespace {
 
+/// What is not built with several materials.
+template <class At>
+void check_several(const Scene& s, At at) {
+  const PhysicsSpec& p = s.physics;
+  const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view allowed) {
+    if (wrong) at(section, key, fmt::format("is not built with several materials, allowed: {}", allowed));
+  };
+  refuse(p.formulation != Formulation::pF && p.formulation != Formulation::pFJ, "physics", "formulation", "pF | pFJ");
+  refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "upwind");
+  refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "scalar");
+  refuse(p.reconstruction == Reconstruction::limited, "physics", "reconstruction", "constant | linear");
+  refuse(p.flux_correction != FluxCorrection::none, "physics", "flux_correction", "none");
+  refuse(p.upwind_metric != UpwindMetric::deformed, "physics", "upwind_metric", "deformed");
+  refuse(p.entropy_fix != EntropyFix::none, "physics", "entropy_fix", "none");
+  refuse(p.keep_angular_momentum, "physics", "keep_angular_momentum", "false");
+  if (s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave || s.initial.field == InitialField::manufactured)
+    at("initial", "field", "is the exact solution of one material, not of several");
+  for (std::size_t i = 1; i < s.materials.size(); ++i)
+    if ((s.materials[i].law == Law::linear_elastic) != (s.materials[0].law == Law::linear_elastic))
+      at(fmt::format("material.{}", i), "law", "cannot stand beside that of material.0: linear_elastic is linear in the geometry too, an interface with another law would not keep energy");
+}
+
 /// What the incompressible scheme cannot be combined with, and what needs it.
 template <class At>
-void check_projection(const Scene& s, At at) {
+void check_projection(const Scene& s, const std::string& material, At at) {
   const PhysicsSpec& p = s.physics;
   if (p.formulation != Formulation::pFp) {
-    if (s.material.poissons_ratio == 0.5) at("material", "poissons_ratio", "must be below 0.5 unless physics.formulation = \"pFp\"");
     for (const char* key : {"solver", "stabilisation", "drift_control", "length_scale", "tolerance", "max_iterations", "on_limit"})
       at("projection", key, "is a key of physics.formulation = \"pFp\" only");
     return;
@@ -209,9 +232,9 @@ void check_projection(const Scene& s, At at) {
   const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view why) {
     if (wrong) at(section, key, why);
   };
-  refuse(s.material.law == Law::linear_elastic || s.material.law == Law::hencky_j2, "material", "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
-  refuse(s.material.volumetric != Volumetric::quadratic, "material", "volumetric", "formulation = \"pFp\" has the pressure for unknown, its energy p^2/(2 kappa) is \"quadratic\"");
-  refuse(s.material.isochoric == Isochoric::J, "material", "isochoric", "needs an evolved J, which formulation = \"pFp\" does not carry");
+  refuse(s.material.law == Law::linear_elastic || s.material.law == Law::hencky_j2, material, "law", "is not built with formulation = \"pFp\", allowed: neo_hookean | mooney_rivlin");
+  refuse(s.material.volumetric != Volumetric::quadratic, material, "volumetric", "formulation = \"pFp\" has the pressure for unknown, its energy p^2/(2 kappa) is \"quadratic\"");
+  refuse(s.material.isochoric == Isochoric::J, material, "isochoric", "needs an evolved J, which formulation = \"pFp\" does not carry");
   refuse(s.monitor.entropy, "monitor", "entropy", "is not built with formulation = \"pFp\", which dissipates by its projection too");
   refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "is not built with formulation = \"pFp\", allowed: upwind");
   refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "needs an evolved J, which formulation = \"pFp\" does not carry");
@@ -253,25 +276,60 @@ void check_manufactured(const Scene& s, At at) {
   refuse(!planes, "initial", "length", "the faces of mesh.box must lie on multiples of it");
 }
 
+/// What current area vectors are not built with.
+template <class At>
+void check_current_areas(const Scene& s, At at) {
+  const PhysicsSpec& p = s.physics;
+  if (!has_current_areas(p.description)) return;
+  const auto refuse = [&](bool wrong, std::string_view section, std::string_view key, std::string_view allowed) {
+    if (wrong) at(section, key, fmt::format("is not built with description = \"{}\", allowed: {}", word(p.description), allowed));
+  };
+  if (p.formulation != Formulation::pFJ) at("physics", "description", fmt::format("needs formulation = \"pFJ\"; {}", what_is_built));
+  refuse(s.material.law == Law::linear_elastic, "material", "law", "neo_hookean | mooney_rivlin | hencky_j2");
+  refuse(p.stabilisation != Stabilisation::upwind, "physics", "stabilisation", "upwind");
+  refuse(p.pressure_jump != PressureJump::scalar, "physics", "pressure_jump", "scalar");
+  refuse(p.reconstruction == Reconstruction::limited, "physics", "reconstruction", "constant | linear");
+  refuse(p.flux_correction != FluxCorrection::none, "physics", "flux_correction", "none");
+  refuse(p.boundary_flux != BoundaryFlux::adjoint, "physics", "boundary_flux", "adjoint");
+  refuse(p.entropy_fix != EntropyFix::none, "physics", "entropy_fix", "none");
+}
+
 }  // namespace
 
 void check_together(Table& root, const Scene& s) {
   // A section is reached through a table of its own: what it does not read here was reported before.
+  const auto table_of = [&](std::string_view section) -> const toml::table* {
+    const std::size_t dot = section.find('.');
+    const toml::node* node = root.find(section.substr(0, dot));
+    if (const auto* list = node ? node->as_array() : nullptr) node = list->get(dot == section.npos ? 0 : std::stoul(std::string(section.substr(dot + 1))));
+    return node ? node->as_table() : nullptr;
+  };
   const auto at = [&](std::string_view section, std::string_view key, std::string_view why) {
-    if (const auto* t = root.find(section) ? root.find(section)->as_table() : nullptr) Table(*t, root.path(section), root.diagnostics()).fail(key, why);
+    if (const auto* t = table_of(section)) Table(*t, std::string(section), root.diagnostics()).fail(key, why);
   };
   const auto sound = [&](const std::string& path) { return !root.diagnostics().wrong.contains(path); };
+  const auto materials = materials_of(s);
+  const auto* written = root.find("material") ? root.find("material")->as_array() : nullptr;
+  const auto section_of = [&](std::size_t i) { return written ? fmt::format("material.{}", i) : std::string("material"); };
+  bool laws_sound = true;
+  for (std::size_t i = 0; i < materials.size(); ++i) laws_sound = laws_sound && sound(section_of(i) + ".law");
   if (sound("physics.formulation") && s.physics.formulation == Formulation::pF) {
     const std::string_view why = "needs an evolved J, which formulation = \"pF\" does not carry";
-    if (s.material.isochoric == Isochoric::J) at("material", "isochoric", why);
+    for (std::size_t i = 0; i < materials.size(); ++i)
+      if (materials[i].isochoric == Isochoric::J) at(section_of(i), "isochoric", why);
     if (s.initial.J == InitialJ::det) at("initial", "J", why);
     if (s.physics.pressure_jump == PressureJump::tensor) at("physics", "pressure_jump", why);
   }
-  if (sound("physics.formulation"))
-    check_projection(s, [&](std::string_view section, std::string_view key, std::string_view why) {
-      const auto* t = root.find(section) ? root.find(section)->as_table() : nullptr;
-      if (t && t->contains(key) && sound(fmt::format("{}.{}", section, key))) at(section, key, why);
-    });
+  const auto at_sound = [&](std::string_view section, std::string_view key, std::string_view why) {
+    const auto* t = table_of(section);
+    if (t && t->contains(key) && sound(fmt::format("{}.{}", section, key))) at(section, key, why);
+  };
+  for (std::size_t i = 0; i < materials.size(); ++i)
+    if (sound("physics.formulation") && materials[i].poissons_ratio == 0.5 && s.physics.formulation != Formulation::pFp)
+      at_sound(section_of(i), "poissons_ratio", "must be below 0.5 unless physics.formulation = \"pFp\"");
+  if (sound("physics.formulation")) check_projection(s, section_of(0), at_sound);
+  if (sound("physics.description")) check_current_areas(s, at_sound);
+  if (!s.materials.empty()) check_several(s, at_sound);
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.energy)
     at("monitor", "energy", "audits the upwind stabilisation only, not jst");
   if (sound("physics.stabilisation") && s.physics.stabilisation == Stabilisation::jst && s.monitor.entropy)
@@ -279,15 +337,19 @@ void check_together(Table& root, const Scene& s) {
   if (sound("physics.keep_angular_momentum") && s.physics.keep_angular_momentum && sound("time.integrator") && s.time.integrator != Integrator::tvd_rk2)
     at("physics", "keep_angular_momentum", "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly");
   if (sound("initial.field") && sound("initial.length") && s.initial.field == InitialField::manufactured) check_manufactured(s, at);
+  if (sound("monitor.energy") && !s.monitor.energy) {
+    if (s.monitor.energy_growth != EnergyGrowth::warn) at("monitor", "energy_growth", "needs monitor.energy = true");
+    if (s.monitor.energy_tolerance != MonitorSpec{}.energy_tolerance) at("monitor", "energy_tolerance", "needs monitor.energy = true");
+  }
   const bool wave = s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave;
   const auto shows_plastic = [](const std::vector<std::string>& fields) { return std::find(fields.begin(), fields.end(), "plastic_strain") != fields.end(); };
-  if (sound("material.law") && s.material.law != Law::hencky_j2) {
+  if (laws_sound && !has_plasticity(s)) {
     const std::string_view why = "plastic_strain needs material.law = \"hencky_j2\"";
     if (sound("output.fields") && shows_plastic(s.output.fields)) at("output", "fields", why);
     for (const ProbeSpec& p : s.output.probes)
       if (shows_plastic(p.fields)) at("output", "probes", fmt::format("{}.fields: {}", p.name, why));
   }
-  if (wave && sound("material.law") && s.material.law != Law::linear_elastic)
+  if (wave && s.materials.empty() && laws_sound && s.material.law != Law::linear_elastic)
     at("initial", "field", "needs material.law = \"linear_elastic\": its exact solution is linear");
 }
 

@@ -8,11 +8,15 @@
 
 namespace nanson {
 
+void read_regions(Table& t, MeshSpec& m);
 void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folder);
-void read_material(Table& t, MaterialSpec& m);
+/// [material], or [[material]] for several regions.
+void read_materials(Table& root, Scene& s);
 void read_physics(Table& t, PhysicsSpec& p);
 void read_projection(Table& t, ProjectionSpec& p);
 void read_initial(Table& t, InitialSpec& s);
+/// A name or a list of names, required.
+void read_names(Table& t, std::string_view key, std::vector<Word>& names);
 void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary);
 void read_time_function(Table& t, TimeFunction& f);
 void read_time(Table& t, TimeSpec& s);

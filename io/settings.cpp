@@ -47,11 +47,11 @@ std::optional<toml::table> parse_value(std::string_view value, long number, std:
   }
 }
 
-/// Names under which a list entry is known: the faces it is for.
+/// Names under which a list entry is known: the faces or regions it is for.
 std::vector<std::string> names_of(const toml::node& entry) {
   std::vector<std::string> names;
   const auto* t = entry.as_table();
-  const toml::node* face = t ? t->get("face") : nullptr;
+  const toml::node* face = t ? t->get(t->contains("face") ? "face" : "region") : nullptr;
   const auto add = [&](const toml::node& n) { if (const auto* s = n.as_string()) names.push_back(s->get()); };
   if (face) add(*face);
   if (const auto* list = face ? face->as_array() : nullptr) for (const toml::node& n : *list) add(n);

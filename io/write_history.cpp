@@ -9,19 +9,9 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "io/read_csv.hpp"
+
 namespace nanson {
-namespace {
-
-/// A heading with a comma, quote or line break in it (a probe may be named so) is quoted.
-std::string csv_text(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
-  return quoted + '"';
-}
-
-}  // namespace
-
 HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<HistoryColumn>& columns)
     : path_(std::move(path)), columns_(columns.size()), file_(path_, O_WRONLY | O_CREAT | O_TRUNC) {
   if (!file_) throw std::runtime_error(fmt::format("{}: could not be created: {}", path_.string(), std::strerror(errno)));

@@ -89,9 +89,17 @@ toml::table throughput_table(const std::optional<Throughput>& t) {
                      {"GF_s", number(t->GF_s)}, {"update_GB_s", number(t->update_GB_s)}, {"bandwidth_share", number(t->bandwidth_share)}};
 }
 
+void collect_numbers(const toml::table& table, const std::string& before, std::vector<std::string>& keys) {
+  for (auto&& [key, node] : table) {
+    const std::string name = before + std::string(key.str());
+    if (node.is_number()) keys.push_back(name);
+    else if (const auto* inner = node.as_table()) collect_numbers(*inner, name + ".", keys);
+  }
+}
+
 toml::table summary_table(const Summary& s, const Provenance& from) {
   toml::table table{
-      {"status", s.status}, {"reason", s.reason}, {"scene", s.scene}, {"formulation", s.formulation}, {"material", s.material},
+      {"status", s.status}, {"reason", s.reason}, {"cause", s.cause}, {"scene", s.scene}, {"formulation", s.formulation}, {"material", s.material},
       {"description", s.description}, {"stabilisation", s.stabilisation}, {"reconstruction", s.reconstruction}, {"flux_correction", s.flux_correction},
       {"boundary_flux", s.boundary_flux}, {"upwind_metric", s.upwind_metric}, {"pressure_jump", s.pressure_jump}, {"integrator", s.integrator},
       {"step", s.step}, {"split", s.split}, {"nodes", s.nodes}, {"tets", s.tets}, {"edges", s.edges}, {"steps", s.steps}, {"t_end", number(s.t_end)},
@@ -119,6 +127,15 @@ std::string summary_json(const Summary& summary, const Provenance& from) {
   std::ostringstream text;
   text << toml::json_formatter{table, flags} << '\n';
   return nulls(text.str());
+}
+
+std::vector<std::string> summary_number_keys() {
+  Summary all;
+  all.projection.emplace(), all.throughput.emplace();
+  for (const char* name : error_names) all.errors[name] = 0;
+  std::vector<std::string> keys;
+  collect_numbers(summary_table(all, {}), "", keys);
+  return keys;
 }
 
 void write_summary(const std::filesystem::path& path, const Summary& summary, const Provenance& from) {

@@ -4,15 +4,22 @@
 
 namespace nanson {
 
+/// Undeformed density of a node [kg/m^3].
+template <Materials materials>
+NANSON_INLINE double density(const Rows& rows, const Coefficients& k, int n) {
+  if constexpr (materials == Materials::several) return rows.rho[n];
+  else return k.material.rho;
+}
+
 /// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
 /// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
-template <bool corrected>
+template <bool corrected, Materials materials>
 NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
   constexpr int width = corrected ? 8 : 4;
   const double* buffer = scratch.edge;
   const double* corner_buffer = scratch.edge + width * static_cast<std::ptrdiff_t>(part.edge_end - part.edge_begin);
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    const double inverse_volume = rows.X[row::X * n + 3], mass = k.material.rho / inverse_volume;
+    const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
     Vec4 g0{}, g1{}, g2{};
     auto add_q = [&](const double* r, double C0, double C1, double C2) {
@@ -41,11 +48,12 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
 }
 
 /// Along each held direction the force becomes mass x prescribed acceleration; what the support gave is booked [N].
+template <Materials materials>
 NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficients& k, const Constraint* constraints, double* reactions, const Scratch& scratch) {
   for (std::int32_t i = part.constraint_begin; i < part.constraint_end; ++i) {
     const Constraint& h = constraints[i];
     double* f = scratch.force + 4 * (h.node - part.node_begin);
-    const double mass = k.material.rho / rows.X[row::X * h.node + 3];
+    const double mass = density<materials>(rows, k, h.node) / rows.X[row::X * h.node + 3];
     const double* v = rows.W + row::W * h.node;
     double* booked = reactions + reaction_row * i;
     for (int m = 0; m < reaction_row; ++m) booked[m] = 0;
@@ -62,11 +70,11 @@ NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficie
   }
 }
 
-/// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
-template <Formulation formulation, bool corrected>
+/// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G (current areas: row dJ) + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
+template <Formulation formulation, bool corrected, Areas areas, Materials materials>
 NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
   const Vec4 w0 = broadcast4(k.old_weight), w1 = broadcast4(k.stage_weight), dt = broadcast4(k.dt);
-  const double inverse_rho = 1.0 / k.material.rho;
+  double inverse_rho = 1.0 / k.material.rho;
   auto advance = [&](const double* old_row, const double* stage_row, double* new_row, Vec4 rate) {
     store4(new_row, fma(dt, rate, fma(w0, load4(old_row), w1 * load4(stage_row))));
   };
@@ -76,9 +84,11 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
     Vec4 g[3] = {load4(G), load4(G + 4), load4(G + 8)};
     if constexpr (corrected)
       for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I);
+    if constexpr (materials == Materials::several) inverse_rho = 1.0 / rows.rho[n];
     const double inverse_volume = rows.X[row::X * n + 3], inverse_mass = inverse_rho * inverse_volume;
     Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin)) * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
-    if constexpr (formulation != Formulation::pF) {
+    if constexpr (areas == Areas::current) rate[3] += rows.dJ[n];
+    else if constexpr (formulation != Formulation::pF) {
       Vec4 p = load4(PH + 4) * g[0];
       p = fma(load4(PH + 12), g[1], p), p = fma(load4(PH + 20), g[2], p);
       rate[3] += (p[0] + p[1]) + p[2];
@@ -97,12 +107,12 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
   }
 }
 
-template <Formulation formulation, bool corrected>
+template <Formulation formulation, bool corrected, Areas areas, Materials materials>
 void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                             const Constraint* constraints, double* reactions, const Scratch& scratch) {
-  gather<corrected>(part, edges, lists, rows, k, scratch);
-  constrain(part, rows, k, constraints, reactions, scratch);
-  update<formulation, corrected>(part, rows, k, scratch);
+  gather<corrected, materials>(part, edges, lists, rows, k, scratch);
+  constrain<materials>(part, rows, k, constraints, reactions, scratch);
+  update<formulation, corrected, areas, materials>(part, rows, k, scratch);
 }
 
 }  // namespace nanson

@@ -29,9 +29,10 @@ struct EdgeStabilisation {
   Vec4 d;                         // reconstructed jump of {v, Sigma_J}, lane 3 replaced by c . (jump of P) C for the tensor pressure jump
 };
 template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-NANSON_INLINE EdgeStabilisation edge_stabilisation(const Rows& rows, int a, int b, const double (&C)[3], double size, Vec4 plain, Vec4 D, Vec4 c, const Coefficients& k) {
+NANSON_INLINE EdgeStabilisation edge_stabilisation(const Rows& rows, int a, int b, const double (&C)[3], double size, Vec4 plain, Vec4 D, Vec4 c, double rho_cp,
+                                                   double rho_cs) {
   const double cc = dot3(c, c)[0];
-  EdgeCoefficients s = edge_coefficients<metric>(cc, size, k.rho_cp, k.rho_cs);
+  EdgeCoefficients s = edge_coefficients<metric>(cc, size, rho_cp, rho_cs);
   Vec4 d = reconstructed_jump<reconstruction>(rows, a, b, plain, D);
   if constexpr (!evolves_J) s.volume = 0;
   if constexpr (evolves_J && jump == PressureJump::tensor) {
@@ -51,7 +52,7 @@ struct EdgeBlock {
 };
 
 /// First pass over edges [begin, end): central traction and area, jumps; q = (theta/4)(G_a - G_b) . D into the second half of the flux rows.
-template <Reconstruction reconstruction, FluxCorrection correction, PressureJump jump, EntropyFix fix>
+template <Reconstruction reconstruction, FluxCorrection correction, PressureJump jump, EntropyFix fix, Areas areas>
 NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta, EdgeBlock& block, double* flux) {
   constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
   for (int e = begin; e < end; ++e) {
@@ -62,10 +63,12 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     if constexpr (correction == FluxCorrection::full) __builtin_prefetch(rows.Q + row::Q * next), __builtin_prefetch(rows.Q + row::Q * next + 8);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
-    const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
+    const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
+    const double C[3] = {area[0][e], area[1][e], area[2][e]};
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
+    if constexpr (areas == Areas::current) tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
     if constexpr (correction == FluxCorrection::full) tc = concat(average_traction(rows.Q + row::Q * a, rows.Q + row::Q * b, C), high(tc));
     const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
@@ -79,8 +82,8 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
 }
 
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`.
-template <FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, const Coefficients& k, double* flux) {
+template <FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
+NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, double* flux) {
   constexpr int width = correction != FluxCorrection::none ? 8 : 4;
   const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
   Vec8 t[4], c[4], d[4], plain[4]{}, y[4], q[4];
@@ -89,7 +92,7 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, const
   load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
   if constexpr (fix != EntropyFix::none) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
   const Vec8 cc = dot(c, c);
-  EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, size, k.rho_cp, k.rho_cs);
+  EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, size, rho_cp, rho_cs);
   if constexpr (!evolves_J) s.volume = Vec8{};
   if constexpr (evolves_J && jump == PressureJump::tensor) {
     load_transposed(block.y + 4 * at, 4, y[0], y[1], y[2], y[3]);
@@ -108,7 +111,8 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, const
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums, differences and products of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
 /// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone.
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas = Areas::undeformed,
+          Materials materials = Materials::one>
 NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
   constexpr int width = correction != FluxCorrection::none ? 8 : 4;
   EdgeBlock block{};
@@ -117,16 +121,20 @@ NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const R
     const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
     double* out = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
     double* flux = count < edge_block ? last : out;
-    gather_edges<reconstruction, correction, jump, fix>(begin, begin + count, edges, rows, k.theta, block, flux);
-    for (int at = 0; at < count; at += 8)
-      finish_edges<correction, evolves_J, jump, metric, fix>(block, at, edge_sizes(edges, begin + at), k, flux + width * at);
+    gather_edges<reconstruction, correction, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
+    for (int at = 0; at < count; at += 8) {
+      const Vec8 size = edge_sizes(edges, begin + at);
+      if constexpr (materials == Materials::several)
+        finish_edges<correction, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at), load8_anywhere(edges.rho_cs + begin + at), flux + width * at);
+      else finish_edges<correction, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, flux + width * at);
+    }
     if (count < edge_block)
       for (int i = 0; i < width * count; i += 4) store4(out + i, load4(last + i));
   }
 }
 
 /// Power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J with the plain nodal differences (paper, eq. 71; method, section 11).
-template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas, Materials materials>
 double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
   double power = 0;
   for (int a = part.node_begin; a < part.node_end; ++a)
@@ -136,9 +144,13 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const double* PHa = rows.PH + row::PH * a;
       const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
-      const Vec4 c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
+      Vec4 c;
+      if constexpr (areas == Areas::current) c = Vec4{edges.c[0][e], edges.c[1][e], edges.c[2][e], 0.0};
+      else c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
       const Vec4 plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a), D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a);
-      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edge_size(edges, e), plain, D, c, k);
+      double rho_cp = k.rho_cp, rho_cs = k.rho_cs;
+      if constexpr (materials == Materials::several) rho_cp = edges.rho_cp[e], rho_cs = edges.rho_cs[e];
+      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edge_size(edges, e), plain, D, c, rho_cp, rho_cs);
       const Vec4 p = plain * fma(u.s.k, u.d, broadcast4(u.s.along) * c);
       power += ((p[0] + p[1]) + p[2]) + p[3];
     }
@@ -167,10 +179,10 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
     }
 }
 
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
+template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Materials materials>
 void edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                     const Scratch& scratch) {
-  edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix>(part, edges, rows, k, scratch.edge);
+  edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
   corner_forces<correction>(part, corners, lists, rows, k, scratch.edge);
 }
 

@@ -8,7 +8,7 @@ namespace nanson {
 /// Stabilisation of one edge, before it meets the jump: D^p = shear d + normal (c . d) c with d the jump of v, D^J = volume (jump of Sigma_J).
 /// c = H_ave C; size = |C|; cn = c_p-scale of the normal part times |C|: |C| (paper) or max(|C|, |c|), that is c_p max(1, |H_ave N|) (deformed).
 /// D^p = 1/2 [rho cs |C| d + (rho cp cn - rho cs |C|) (c.d)/(c.c) c] (eq. 36a, 37, 41); D^J = (Sigma+ - Sigma-) c.c / (2 rho cp cn) (Remark 4, eq. 42).
-/// One edge (double) or eight as lanes (Vec8).
+/// One edge (double) or eight as lanes (Vec8); Z: the impedances, double where all edges share them.
 template <class Real>
 struct EdgeCoefficientsOf {
   Real shear;   // [kg/s]
@@ -17,8 +17,8 @@ struct EdgeCoefficientsOf {
 };
 using EdgeCoefficients = EdgeCoefficientsOf<double>;
 
-template <UpwindMetric metric, class Real>
-NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, double rho_cp, double rho_cs) {
+template <UpwindMetric metric, class Real, class Z>
+NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, Z rho_cp, Z rho_cs) {
   Real cn = size;
   if constexpr (metric == UpwindMetric::deformed) cn = larger(size, root(cc));
   const Real inverse = 1.0 / (cc * cn);

@@ -11,11 +11,12 @@ namespace row {
 inline constexpr int U = 16;    // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
 inline constexpr int H = 12;    // {columns of H, 0}, pFHJ only
 inline constexpr int W = 4;     // {v, Sigma_J}: what is reconstructed and swept
-inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}
+inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
 inline constexpr int G = 12;    // per direction I: d{v, Sigma_J}/dX_I
 inline constexpr int Q = 12;    // {columns of Q, 0}: the nodal stress of the full flux correction
 inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
 inline constexpr int L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
+inline constexpr int x = 4;     // {x, 0}, current areas only
 inline constexpr int X = 4;     // {X, 1/Omega}
 inline constexpr int lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
 inline constexpr int plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
@@ -26,6 +27,9 @@ struct EdgeArrays {
   const std::int32_t* a;        // row of the owned node
   const std::int32_t* b;        // row of the other node
   const double* C[3];           // [m^2] area vector from a to b
+  const double* c[3] = {};      // [m^2] current area vector from a to b, current areas only
+  const double* rho_cp = nullptr;  // [kg/(m^2 s)] impedances, several materials only
+  const double* rho_cs = nullptr;
 };
 
 /// |C| [m^2] of an edge, and of eight.
@@ -44,6 +48,9 @@ struct CornerArrays {
   const std::int32_t* c;
   const double* C[3];           // [m^2] outward, a third of the face
   const std::int32_t* load;     // index into the loads of the stage, -1 without
+  const double* c_gamma[3] = {};  // [m^2] current area vector, current areas only; and the same face's corners at b and c
+  const std::int32_t* at_b = nullptr;
+  const std::int32_t* at_c = nullptr;
 };
 
 /// Per node: where its out-edges, in-edges (owned edges that end in it) and corners begin; one more entry than nodes.
@@ -75,12 +82,14 @@ struct Rows {
   double* GP;
   double* L;
   const double* lambda;
+  const double* rho;            // [kg/m^3] a node, several materials only
   const double* loads;          // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
   double* W_new;
   double* PH_new;
   double* plastic;              // at the start of the step, overwritten where the stage commits
+  double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
 };
 
 /// Directions in which a node is held, orthonormal, with what prescribes the acceleration along each.
@@ -126,28 +135,37 @@ struct PartReport {
 /// What the gradient sweep adds to row L of a node.
 enum class NodeWeights { none, limiter, laplacian };
 
+/// What fluxes multiply stresses with: the undeformed area vectors C, P and H; or the current ones c and the Cauchy stress.
+enum class Areas { undeformed, current };
+
 // The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.
 template <bool tensor_jump, bool full_correction, NodeWeights>
 void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
-template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
+template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Materials = Materials::one>
 void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
 template <bool evolves_J>
 void edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
-template <Formulation, bool corrected>
+template <Reconstruction, UpwindMetric>
+void current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+
+template <Formulation, bool corrected, Areas = Areas::undeformed, Materials = Materials::one>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
 template <Law, Volumetric, Isochoric, Formulation>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
+template <Law, Volumetric, Isochoric>
+PartReport cauchy_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
+
 template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 /// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
-template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix>
+template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Areas = Areas::undeformed, Materials = Materials::one>
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].

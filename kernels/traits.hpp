@@ -9,6 +9,7 @@ enum class Law { linear_elastic, neo_hookean, mooney_rivlin, hencky_j2 };
 enum class Volumetric { quadratic, barrier };      // U = kappa/2 (J-1)^2 (paper, eq. 14) | kappa/2 [(J^2-1)/2 - ln J]
 enum class Isochoric { F, J };                     // isochoric energy with det F | with the evolved J, as the paper writes it
 enum class Formulation { pF, pFJ, pFHJ, pFp };     // what is carried besides {p, F}; pFp: the pressure, by projection
+enum class Description { total, updated, pseudo_updated };  // area vectors of the fluxes: H_ave C (paper, eq. 40) | of the dual of x (eq. 48) | H_x C (eq. 49)
 enum class PressureJump { scalar, tensor };        // jump of Sigma_J (paper, Remark 4) | of P N (paper, eq. 36b)
 enum class Stabilisation { upwind, jst };          // acoustic Riemann solver | Jameson-Schmidt-Turkel (paper, section 6.1)
 enum class Reconstruction { constant, linear, limited };
@@ -16,11 +17,13 @@ enum class FluxCorrection { none, pressure, full };
 enum class BoundaryFlux { adjoint, paper };
 enum class UpwindMetric { deformed, paper };       // c_p max(1, |H N|) | c_p
 enum class EntropyFix { none, edge };              // edge: no stabilisation against the plain jump
+enum class Materials { one, several };             // the same density and impedances everywhere | a density a node, impedances an edge
 
 constexpr auto words(Law) { return std::array<std::string_view, 4>{"linear_elastic", "neo_hookean", "mooney_rivlin", "hencky_j2"}; }
 constexpr auto words(Volumetric) { return std::array<std::string_view, 2>{"quadratic", "barrier"}; }
 constexpr auto words(Isochoric) { return std::array<std::string_view, 2>{"F", "J"}; }
 constexpr auto words(Formulation) { return std::array<std::string_view, 4>{"pF", "pFJ", "pFHJ", "pFp"}; }
+constexpr auto words(Description) { return std::array<std::string_view, 3>{"total", "updated", "pseudo_updated"}; }
 constexpr auto words(PressureJump) { return std::array<std::string_view, 2>{"scalar", "tensor"}; }
 constexpr auto words(Stabilisation) { return std::array<std::string_view, 2>{"upwind", "jst"}; }
 constexpr auto words(Reconstruction) { return std::array<std::string_view, 3>{"constant", "linear", "limited"}; }
@@ -29,6 +32,7 @@ constexpr auto words(BoundaryFlux) { return std::array<std::string_view, 2>{"adj
 constexpr auto words(EntropyFix) { return std::array<std::string_view, 2>{"none", "edge"}; }
 constexpr auto words(UpwindMetric) { return std::array<std::string_view, 2>{"deformed", "paper"}; }
 
+constexpr bool has_current_areas(Description d) { return d != Description::total; }
 constexpr bool evolves_J(Formulation f) { return f == Formulation::pFJ || f == Formulation::pFHJ; }
 
 /// The TOML word of a choice.

@@ -9,6 +9,7 @@
 
 #include "engine/fields.hpp"
 #include "engine/monitor.hpp"
+#include "engine/parts.hpp"
 #include "engine/solver.hpp"
 
 namespace nanson::method {
@@ -136,7 +137,7 @@ inline void adopt_state(Simulation& s) {
   Rows r{};
   r.X = s.state.X.data(), r.U_new = s.state.U[0].data(), r.H_new = s.state.H[0].data();
   r.W_new = s.state.W[s.state.now].data(), r.PH_new = s.state.PH[s.state.now].data();
-  for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = s.functions.stress(s.order.parts[p], r, s.coefficients, s.state.step_length.data());
+  for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = stress_of_part(s, static_cast<int>(p), r, s.coefficients, scratch_of(s, 0));
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   s.ledger.initial_energy = e.kinetic + e.strain, s.ledger.initial_momentum = m.linear, s.ledger.initial_angular_momentum = m.angular;
@@ -179,6 +180,8 @@ inline Rates rates(Simulation& s) {
   Coefficients k = s.coefficients;
   k.old_weight = 0, k.stage_weight = 0, k.dt = 1, k.acceleration = s.acceleration.data();
   Rows rows = stage_rows(u, 0, 0);
+  find_current_areas(s, rows.U_stage);
+  rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
   rows.G = out.G.data(), rows.U_new = out.U.data(), rows.H_new = H.data(), rows.W_new = nullptr, rows.PH_new = nullptr;
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
@@ -188,7 +191,7 @@ inline Rates rates(Simulation& s) {
   const Scratch scratch{p, p + edge, p + edge + force};
   for (const Part& part : s.order.parts) s.functions.gradient(part, edges, corners, lists, rows, k);
   for (const Part& part : s.order.parts) {
-    s.functions.edge_flux(part, edges, corners, lists, rows, k, scratch);
+    s.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);
     s.functions.accumulate_update(part, edges, lists, rows, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
   }
   return out;

@@ -73,6 +73,18 @@ TEST(Allocation, AStepAllocatesNothing) {
         }
 }
 
+TEST(Allocation, AStepWithCurrentAreasAllocatesNothing) {
+  for (auto description : {Description::updated, Description::pseudo_updated})
+    for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear})
+      for (int threads : {1, 2}) {
+        Scene scene = loaded_bar(3);
+        scene.physics.description = description, scene.physics.reconstruction = reconstruction, scene.monitor.energy = true;
+        const Problem problem(scene);
+        Simulation s = problem.start(threads);
+        EXPECT_EQ(allocations_of_three_steps(s), 0) << word(description);
+      }
+}
+
 TEST(Allocation, AProjectedStepAllocatesNothing) {
   for (auto solver : {ProjectionSolver::cg, ProjectionSolver::pseudo_time})
     for (int threads : {1, 2}) {

@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "engine/summarise.hpp"
 #include "scenes.hpp"
 
 namespace nanson::method {
@@ -52,6 +53,7 @@ TEST(Breakdown, InversionEndsTheRunAndNamesTheNode) {
       ASSERT_GE(s.breakdown->node, 0);
       EXPECT_FALSE(sound(U_of(s, s.breakdown->node), formulation)) << "the named node is sound";
       EXPECT_EQ(reason, s.breakdown->text);
+      EXPECT_TRUE(s.breakdown->cause == "det_F" || (s.breakdown->cause == "J" && formulation != Formulation::pF)) << s.breakdown->cause;
       EXPECT_NE(reason.find("node " + std::to_string(s.breakdown->node) + " at X = ("), std::string::npos) << reason;
       char t[32];
       std::snprintf(t, sizeof t, "t = %.6e s", s.t);
@@ -93,6 +95,7 @@ TEST(Breakdown, NaNInAnyQuantityIsCaughtInTheNextStep) {
       EXPECT_EQ(s.step, 3) << word(formulation) << " lane " << lane;
       ASSERT_TRUE(s.breakdown);
       EXPECT_EQ(s.breakdown->node, 17) << s.breakdown->text;
+      EXPECT_EQ(s.breakdown->cause, "not_finite") << s.breakdown->text;
     }
 }
 
@@ -122,6 +125,7 @@ TEST(Breakdown, CollapseOfTheStepIsCaughtAndNamed) {
   EXPECT_GT(allowed_step(s), 0.5 * s.first_dt) << "caught late";
   EXPECT_EQ(s.breakdown->node, limiting_nodes(s, 1)[0].first);
   EXPECT_NE(reason.find("collapsed"), std::string::npos) << reason;
+  EXPECT_EQ(s.breakdown->cause, "dt_collapse");
   EXPECT_TRUE(sound(U_of(s, s.breakdown->node), scene.physics.formulation));
   EXPECT_TRUE(frames.last_was_frame && frames.last_broken);
 }
@@ -134,6 +138,7 @@ TEST(Breakdown, AskedToStopIsNoBreakdown) {
   std::string reason;
   EXPECT_EQ(run(s, observer, reason), "stopped");
   EXPECT_EQ(reason, "signal");
+  EXPECT_EQ(summarise(s, {}, "stopped", reason).cause, "signal");
   EXPECT_EQ(s.step, 4);
   EXPECT_FALSE(s.breakdown);
 }

@@ -177,7 +177,12 @@ TEST(EnergyGrowth, StopsTheRunWhereTheSceneAsksForIt) {
   Scene scene = column(4);
   scene.physics.formulation = Formulation::pF, scene.physics.boundary_flux = BoundaryFlux::paper;
   scene.monitor.energy_growth = EnergyGrowth::stop;
-  EXPECT_EQ(audit(scene).status, "breakdown");
+  scene.monitor.energy = true;
+  const Problem problem(scene);
+  Simulation s = problem.start();
+  EXPECT_EQ(run_quietly(s), "breakdown");
+  ASSERT_TRUE(s.breakdown);
+  EXPECT_EQ(s.breakdown->cause, "energy_growth");
   scene.physics.boundary_flux = BoundaryFlux::adjoint;
   EXPECT_EQ(audit(scene).status, "done");
 }

@@ -29,6 +29,14 @@ std::map<std::string, double> cube_errors(const CubeCase& c) {
   return exact_errors(s);
 }
 
+TEST(Errors, HaveTheNamesThatStudiesMayAskFor) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : cube_errors({Split::kuhn, Formulation::pFJ, FluxCorrection::none, InitialJ::linear, 2})) names.push_back(name);
+  std::vector<std::string> known(error_names.begin(), error_names.end());
+  std::sort(known.begin(), known.end());
+  EXPECT_EQ(names, known);
+}
+
 std::string label(const CubeCase& c) { return fmt::format("{}_{}_{}_{}_{}", word(c.split), word(c.formulation), word(c.correction), word(c.J), c.n); }
 
 /// L1 and L2 errors of p1 and P11 relative to the exact field at t [1e-4]: method.md, sections 13 and 14. A negative figure is not known.

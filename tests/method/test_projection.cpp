@@ -163,6 +163,7 @@ TEST(Projection, ALimitThatIsMetStopsTheRunUnlessItOnlyWarns) {
   const Problem lenient(scene);
   Simulation a = strict.start(), b = lenient.start();
   EXPECT_EQ(run_quietly(a), "breakdown");
+  EXPECT_EQ(a.breakdown->cause, "iteration_limit");
   EXPECT_NE(a.breakdown->text.find("projection.max_iterations = 1 in stage 1 of step 1"), std::string::npos) << a.breakdown->text;
   EXPECT_EQ(run_quietly(b), "done");
   EXPECT_NE(b.warning.find("projection.max_iterations"), std::string::npos);

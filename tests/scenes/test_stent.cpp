@@ -23,5 +23,18 @@ TEST(Stent, EndFollowsItsPathAndTheShellTheFiguresMeasuredBefore) {
   }
 }
 
+TEST(Stent, PressedOnItsStripsBulgesAsMeasuredBefore) {
+  const SceneRun run = run_config("stent.toml", {"mesh.file=meshes/stent_strip.msh", "boundary.1.face=strip", "time.end=0.003", "boundary.strip.time.centre=0.004",
+                                                 "output.probes={strip={at=[0,0.005,0.01],fields=['displacement']},side={at=[0.005,0,0.00866],fields=['displacement']}}"});
+  EXPECT_EQ(run.summary.status, "done");
+  const double path = -0.006 * (1 / (1 + std::exp(800 * 0.001)) - 1 / (1 + std::exp(800 * 0.004)));  // [m]
+  const auto &at_strip = run.summary.probes.at("strip").at("displacement"), &side = run.summary.probes.at("side").at("displacement");
+  EXPECT_NEAR(at_strip[2], path, 1e-5 * std::abs(path));
+  EXPECT_NEAR(side[0], 0.156e-3, 5e-6);
+  EXPECT_NEAR(side[2], -0.155e-3, 5e-6);
+  EXPECT_LT(*run.summary.energy.closure, 1e-3);
+  EXPECT_GT(run.summary.min_detF, 0.97);
+}
+
 }  // namespace
 }  // namespace nanson

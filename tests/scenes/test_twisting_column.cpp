@@ -33,5 +33,27 @@ TEST(TwistingColumn, ReachesTheFiguresMeasuredBefore) {
   }
 }
 
+/// Total, Updated and pseudo Updated Lagrangian column (paper, section 6.5): the tip within 1 % of the column's length.
+TEST(TwistingColumn, DescriptionsAgree) {
+  Vec3 tip[3];
+  double energy[3];
+  const char* const descriptions[] = {"total", "updated", "pseudo_updated"};
+  for (int d = 0; d < 3; ++d) {
+    const SceneRun run = run_config("twisting_column.toml", {std::string("physics.description=") + descriptions[d]});
+    ASSERT_EQ(run.summary.status, "done") << descriptions[d];
+    EXPECT_EQ(run.summary.description, descriptions[d]);
+    for (std::size_t k = 0; k < 3; ++k) tip[d][k] = run.summary.probes.at("tip").at("x")[k];
+    energy[d] = (run.summary.energy.kinetic + run.summary.energy.strain) / run.summary.energy.initial;
+    EXPECT_LT(std::hypot(tip[d][0] - tip[0][0], tip[d][1] - tip[0][1], tip[d][2] - tip[0][2]), 0.06) << descriptions[d];
+    EXPECT_LE(run.largest_energy, 1 + 1e-6) << descriptions[d];
+    EXPECT_LT(run.summary.linear_momentum_drift, 1e-13) << descriptions[d];
+  }
+  EXPECT_NEAR(energy[0], 0.892, 1e-3);
+  EXPECT_NEAR(energy[1], 0.894, 1e-3);
+  EXPECT_NEAR(energy[2], 0.901, 1e-3);
+  EXPECT_GT(std::abs(tip[1][0] - tip[0][0]), 1e-4);  // they are three schemes
+  EXPECT_GT(std::abs(tip[2][0] - tip[1][0]), 1e-4);
+}
+
 }  // namespace
 }  // namespace nanson

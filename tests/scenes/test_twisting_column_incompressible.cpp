@@ -69,5 +69,15 @@ TEST(TwistingColumnIncompressible, IsSmoothInPoissonsRatioUpToOneHalf) {
   EXPECT_LT(std::abs(x[6] - x[5]), 1e-3);
 }
 
+TEST(TwistingColumnIncompressible, NodesThatLimitItsStepAreFound) {
+  run_config("twisting_column_incompressible.toml", {"mesh.cells=[3,3,18]", "time.end=0.002"}, 1, [](const Simulation& s) {
+    const std::string before = state_hash(s);
+    const auto worst = limiting_nodes(s, 5);
+    ASSERT_EQ(worst.size(), 5u);
+    EXPECT_EQ(worst[0].second, allowed_step(s));
+    EXPECT_EQ(state_hash(s), before);
+  });
+}
+
 }  // namespace
 }  // namespace nanson

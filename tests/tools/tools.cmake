@@ -23,3 +23,13 @@ endif()
 add_test(NAME Provenance.ScriptWithoutGitAndWithoutChange
          COMMAND ${CMAKE_COMMAND} -DSCRIPT=${CMAKE_CURRENT_SOURCE_DIR}/cmake/provenance.cmake -DCOMPILER=${CMAKE_CXX_COMPILER}
                  -DWORK=${CMAKE_CURRENT_BINARY_DIR}/provenance_test -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/check_provenance.cmake)
+
+if(NANSON_PYTHON)
+  add_test(NAME Study.EndToEnd
+           COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/study_test.py $<TARGET_FILE:nanson> ${CMAKE_CURRENT_SOURCE_DIR})
+  find_program(NANSON_CHROMIUM NAMES chromium chromium-browser google-chrome)
+  if(NANSON_CHROMIUM)
+    add_test(NAME Study.PageInChromium
+             COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/study_page_in_chromium.py $<TARGET_FILE:nanson> ${CMAKE_CURRENT_SOURCE_DIR} ${NANSON_CHROMIUM})
+  endif()
+endif()

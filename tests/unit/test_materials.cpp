@@ -9,10 +9,10 @@ using namespace nanson::test;
 namespace {
 
 template <class Material_>
-struct Materials : ::testing::Test {
+struct MaterialLaws : ::testing::Test {
   MaterialConstants m = constants(Material_::law == Law::mooney_rivlin);
 };
-TYPED_TEST_SUITE(Materials, AllMaterials, MaterialName);
+TYPED_TEST_SUITE(MaterialLaws, AllMaterials, MaterialName);
 
 /// The state after dF = h A, along the motion that the formulation ties: dH = F x dF, dJ = H:dF with the law's own H (I in linear elasticity).
 template <class Material_>
@@ -35,7 +35,7 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 
 }  // namespace
 
-TYPED_TEST(Materials, StressIsTheSlopeOfTheEnergyAlongTheMotion) {
+TYPED_TEST(MaterialLaws, StressIsTheSlopeOfTheEnergyAlongTheMotion) {
   Random random(1);
   for (int k = 0; k < 50; ++k) {
     const MaterialState s = random_state<TypeParam>(random);
@@ -49,7 +49,7 @@ TYPED_TEST(Materials, StressIsTheSlopeOfTheEnergyAlongTheMotion) {
   }
 }
 
-TYPED_TEST(Materials, SigmaJIsTheSlopeOfTheEnergyInJ) {
+TYPED_TEST(MaterialLaws, SigmaJIsTheSlopeOfTheEnergyInJ) {
   Random random(2);
   for (int k = 0; k < 50; ++k) {
     const MaterialState s = random_state<TypeParam>(random);
@@ -65,7 +65,7 @@ TYPED_TEST(Materials, SigmaJIsTheSlopeOfTheEnergyInJ) {
   }
 }
 
-TYPED_TEST(Materials, VolumetricStiffnessIsTheSlopeOfThePressure) {
+TYPED_TEST(MaterialLaws, VolumetricStiffnessIsTheSlopeOfThePressure) {
   Random random(3);
   for (int k = 0; k < 50; ++k) {
     const MaterialState s = random_state<TypeParam>(random);
@@ -76,7 +76,7 @@ TYPED_TEST(Materials, VolumetricStiffnessIsTheSlopeOfThePressure) {
   }
 }
 
-TYPED_TEST(Materials, UndeformedStateHasNoStressAndNoEnergy) {
+TYPED_TEST(MaterialLaws, UndeformedStateHasNoStressAndNoEnergy) {
   const MaterialState s = undeformed();
   const Stress<double> stress = TypeParam::stress(s, this->m);
   EXPECT_LE(largest_entry(stress.P), 1e-14 * this->m.kappa);
@@ -88,7 +88,7 @@ TYPED_TEST(Materials, UndeformedStateHasNoStressAndNoEnergy) {
   EXPECT_NEAR(stress.Sigma_J, conjugate, 1e-14 * this->m.kappa);
 }
 
-TYPED_TEST(Materials, ARotatedStateHasTheRotatedStressAndTheSameEnergy) {
+TYPED_TEST(MaterialLaws, ARotatedStateHasTheRotatedStressAndTheSameEnergy) {
   if constexpr (TypeParam::finite_strain) {
     Random random(4);
     for (int k = 0; k < 50; ++k) {
@@ -108,7 +108,7 @@ TYPED_TEST(Materials, ARotatedStateHasTheRotatedStressAndTheSameEnergy) {
   }
 }
 
-TYPED_TEST(Materials, StressTimesFTransposedIsSymmetricWhenHAndJBelongToF) {
+TYPED_TEST(MaterialLaws, StressTimesFTransposedIsSymmetricWhenHAndJBelongToF) {
   if constexpr (TypeParam::finite_strain) {
     Random random(5);
     for (int k = 0; k < 50; ++k) {
@@ -124,7 +124,7 @@ TYPED_TEST(Materials, StressTimesFTransposedIsSymmetricWhenHAndJBelongToF) {
   }
 }
 
-TYPED_TEST(Materials, LanesHaveTheBitsOfTheScalar) {
+TYPED_TEST(MaterialLaws, LanesHaveTheBitsOfTheScalar) {
   Random random(6);
   for (int k = 0; k < 50; ++k) {
     MaterialState s[8];
@@ -150,7 +150,7 @@ TYPED_TEST(Materials, LanesHaveTheBitsOfTheScalar) {
   }
 }
 
-TYPED_TEST(Materials, StressIsNaNWhereTheIsochoricEnergyHasNoVolume) {
+TYPED_TEST(MaterialLaws, StressIsNaNWhereTheIsochoricEnergyHasNoVolume) {
   if constexpr (TypeParam::finite_strain) {
     for (const double bad : {0.0, -0.5, std::numeric_limits<double>::quiet_NaN()}) {
       MaterialState s = undeformed();

@@ -54,6 +54,27 @@ TEST(Scene, NumbersStayInTheirRange) {
           {"0.25", "2"}, {"500", "0"}, {"60", "0"}, {"= 1\nprobes", "= 0\nprobes"}, {"= 1\nprobes", "= 9\nprobes"}, {"every = 10", "every = 1"}});
 }
 
+TEST(Scene, CurrentAreasAreRefusedWhereTheyAreNotBuilt) {
+  const std::string neo = edited(small_scene, "linear_elastic", "neo_hookean");
+  for (const std::string d : {"updated", "pseudo_updated"}) {
+    const std::string physics = "[physics]\ndescription = \"" + d + "\"\n";
+    expect_valid(neo + physics);
+    expect_valid(neo + physics + "reconstruction = \"constant\"\nupwind_metric = \"paper\"\nkeep_angular_momentum = true\n");
+    const std::string why = ": is not built with description = \"" + d + "\", allowed: ";
+    expect_error(small_scene + physics, "scene.toml:5:7: material.law = \"linear_elastic\"" + why + "neo_hookean | mooney_rivlin | hencky_j2");
+    for (const auto& [line, allowed] : {std::pair<std::string, std::string>{"stabilisation = \"jst\"", "upwind"},
+                                        {"pressure_jump = \"tensor\"", "scalar"},
+                                        {"reconstruction = \"limited\"", "constant | linear"},
+                                        {"flux_correction = \"pressure\"", "none"},
+                                        {"flux_correction = \"full\"", "none"},
+                                        {"boundary_flux = \"paper\"", "adjoint"},
+                                        {"entropy_fix = \"edge\"", "none"}})
+      expect_error(neo + physics + line + "\n", "scene.toml:13:" + std::to_string(line.find('"') + 1) + ": physics." + line + why + allowed);
+    for (const char* formulation : {"pF", "pFHJ", "pFp"})
+      expect_error(neo + physics + "formulation = \"" + formulation + "\"\n", "scene.toml:12:15: physics.description = \"" + d + "\": needs formulation = \"pFJ\"; built: ");
+  }
+}
+
 TEST(Scene, MonitorsAreOffUnlessAskedForAndRefusedWhereTheyMeanNothing) {
   const SceneResult off = read_text(small_scene), on = read_text(with("[monitor]\nentropy = true\ninvolutions = true\ngeometry = true\n"));
   EXPECT_FALSE(off.scene.monitor.entropy || off.scene.monitor.involutions || off.scene.monitor.geometry);
@@ -62,6 +83,14 @@ TEST(Scene, MonitorsAreOffUnlessAskedForAndRefusedWhereTheyMeanNothing) {
   const std::string jst = "[physics]\nstabilisation = \"jst\"\n";
   expect_error(with(jst + "[monitor]\nentropy = true\n"), "scene.toml:14:11: monitor.entropy = true: counts the edges of the upwind stabilisation only, not of jst");
   expect_valid(with(jst + "[monitor]\ninvolutions = true\ngeometry = true\n"));
+}
+
+TEST(Scene, EnergyIsGuardedWhereItIsMonitored) {
+  const std::string why = "needs monitor.energy = true";
+  expect_error(with("[monitor]\nenergy_growth = \"stop\"\n"), "scene.toml:12:17: monitor.energy_growth = \"stop\": " + why);
+  expect_error(with("[monitor]\nenergy_tolerance = 0.02\n"), "scene.toml:12:20: monitor.energy_tolerance = 0.02: " + why);
+  expect_valid(with("[monitor]\nenergy = true\nenergy_growth = \"stop\"\nenergy_tolerance = 0.02\n"));
+  expect_valid(with("[monitor]\nenergy_growth = \"warn\"\nenergy_tolerance = 0.01\n"));
 }
 
 TEST(Scene, ValuesHaveTheirType) {

@@ -22,7 +22,7 @@ TEST(Set, ReplacesTheValueOfTheFile) {
   EXPECT_EQ(read_set({"material.density=2000.0"}).material.density, 2000);
   EXPECT_EQ(read_set({"mesh.cells=[1, 2, 3]"}).mesh.cells, (std::array<int, 3>{1, 2, 3}));
   EXPECT_EQ(read_set({"scene=\"other\""}).name, "other");
-  EXPECT_EQ(read_set({"monitor.energy=false"}).monitor.energy, false);
+  EXPECT_EQ(read_set({"monitor.energy=false", "monitor.energy_growth=warn", "monitor.energy_tolerance=0.01"}).monitor.energy, false);
   EXPECT_EQ(read_set({"initial={ field = \"velocity\", v = [1, 2, 3] }"}).initial.v, (Vec3{1, 2, 3}));
 }
 

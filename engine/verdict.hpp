@@ -1,0 +1,58 @@
+// The verdict on a run, from its summary and history: sound, or one word and a sentence for what was wrong.
+#pragma once
+#include <array>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "kernels/traits.hpp"
+
+namespace nanson {
+
+enum class Verdict { sound, energy_grew, inverted, not_finite, dt_collapse, checkerboard, iteration_limit, too_slow, stopped, failed };
+constexpr auto words(Verdict) {
+  return std::array<std::string_view, 10>{"sound", "energy grew", "J <= 0", "not finite", "dt collapse", "checkerboard", "iteration limit", "too slow", "stopped", "failed"};
+}
+
+/// summary.json flattened: "energy.closure", "probes.tip.x.0"; null is left out.
+struct RunSummary {
+  std::map<std::string, double> numbers;
+  std::map<std::string, std::string> texts;
+};
+
+/// The columns of history.csv that a verdict needs; an empty one was not recorded.
+struct RunHistory {
+  std::vector<double> t;                           // [s]
+  std::vector<double> kinetic, strain, external_work, angular_momentum_work;  // [J]
+  std::vector<double> min_det_F, min_J, min_tet_ratio;  // [-]
+};
+
+/// What a child process left behind.
+struct RunOutcome {
+  std::optional<RunSummary> summary;
+  RunHistory history;
+  int exit_code = 0;                               // 128 + n: ended by signal n
+  bool too_slow = false;                           // ended by the study
+  double wall_s = 0;                               // [s] of the whole process
+  std::string last_words;                          // the end of its log, when it failed
+};
+
+struct VerdictRules {
+  double energy_tolerance = 1e-6;                  // [-] of the initial energy
+  double checkerboard_max = 0;                     // [-] 0: not judged
+  double max_wall_s = 0;                           // [s]
+  bool works = false;                              // loads, moving supports or body forces: without monitor.energy their work is not known
+};
+
+struct Judgement {
+  Verdict verdict = Verdict::sound;
+  std::string reason;                              // a sentence, empty when sound
+  std::optional<double> energy_excess;             // [-] largest (E - E0 - W) over the larger of E0 and the largest |W|; nothing when it is not known
+  double min_det_F = 0, min_tet_ratio = 0;         // [-] over the run; NaN when it was not recorded
+};
+
+Judgement judge(const RunOutcome& run, const VerdictRules& rules);
+
+}  // namespace nanson

@@ -1,0 +1,201 @@
+// Several materials: exact mass, equality with one material where they are equal, energy across jumps of density and stiffness, bitwise across threads.
+#include <gtest/gtest.h>
+
+#include "tests/method/scenes.hpp"
+
+namespace nanson {
+namespace {
+
+using namespace method;
+
+MaterialSpec in_region(MaterialSpec m, const std::string& region) {
+  m.regions = {{region, "test"}};
+  return m;
+}
+
+/// A bar of two materials; the tets above and below a rough surface, so that an interface node sees any share of either.
+struct TwoMaterials : Problem {
+  static Scene scene_of(Scene s, const MaterialSpec& low, const MaterialSpec& high) {
+    s.materials = {in_region(low, "low"), in_region(high, "high")}, s.material = s.materials[0];
+    return s;
+  }
+  static Mesh mesh_with_regions(const Scene& s) {
+    RawMesh raw = make_box(s.mesh);
+    raw.region_names = {"low", "high"};
+    for (std::size_t t = 0; t < raw.tets.size(); ++t) {
+      Vec3 middle{};
+      for (const int n : raw.tets[t])
+        for (int k = 0; k < 3; ++k) middle[k] += raw.X[n][k] / 4;
+      raw.tet_region[t] = middle[2] > 0.9 + 0.3 * std::sin(5 * middle[0]) * std::cos(4 * middle[1]);
+    }
+    return mesh_of(std::move(raw));
+  }
+  TwoMaterials(const Scene& s, const MaterialSpec& low, const MaterialSpec& high) : Problem(scene_of(s, low, high), mesh_with_regions(s)) {}
+};
+
+MaterialSpec rubber() { return free_bar(1).material; }
+MaterialSpec times(MaterialSpec m, double density, double stiffness) {
+  m.density *= density, m.youngs_modulus *= stiffness;
+  return m;
+}
+
+std::vector<PhysicsSpec> physics_for_several() {
+  std::vector<PhysicsSpec> all;
+  for (auto formulation : {Formulation::pF, Formulation::pFJ})
+    for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear}) {
+      PhysicsSpec p;
+      p.formulation = formulation, p.reconstruction = reconstruction;
+      all.push_back(p);
+    }
+  return all;
+}
+
+TEST(Materials, MassIsThatOfTheRegions) {
+  const TwoMaterials two(free_bar(4), rubber(), times(rubber(), 7.3, 1));
+  double volume[2]{};
+  for (std::size_t t = 0; t < two.mesh.tets.size(); ++t) {
+    const auto& n = two.mesh.tets[t];
+    volume[two.mesh.tet_region[t]] += tet_volume(two.mesh.X[n[0]], two.mesh.X[n[1]], two.mesh.X[n[2]], two.mesh.X[n[3]]);
+  }
+  EXPECT_GT(volume[0], 0.5);
+  EXPECT_GT(volume[1], 0.5);
+  const double mass = 1100 * volume[0] + 7.3 * 1100 * volume[1];
+  const Simulation s = two.start();
+  EXPECT_NEAR(s.ledger.mass, mass, 1e-13 * mass);
+}
+
+TEST(Materials, InterfaceNodesExist) {
+  const TwoMaterials two(free_bar(4), rubber(), times(rubber(), 2, 1));
+  const Simulation s = two.start();
+  int mixed = 0;
+  for (int n = 0; n < s.order.nodes; ++n) {
+    const std::size_t r = static_cast<std::size_t>(s.order.row_of[n]);
+    EXPECT_NEAR(s.mixture.share[0][r] + s.mixture.share[1][r], 1, 1e-15);
+    EXPECT_NEAR(s.mixture.rho[r], 1100 * (1 + s.mixture.share[1][r]), 1e-12 * 1100);
+    mixed += s.mixture.share[0][r] > 0 && s.mixture.share[1][r] > 0;
+  }
+  EXPECT_GT(mixed, 20);
+}
+
+TEST(Materials, EqualOnesAreOneMaterial) {
+  MaterialSpec plastic = rubber();
+  plastic.law = Law::hencky_j2, plastic.yield_stress = 1e12;  // never flows
+  for (const MaterialSpec& law : {rubber(), plastic})
+    for (const PhysicsSpec& p : physics_for_several()) {
+      Scene scene = loaded_bar(4);
+      scene.physics = p, scene.material = law;
+      const TwoMaterials two(scene, law, law);
+      const Problem one(scene, two.mesh);
+      Simulation a = one.start(), b = two.start();
+      EXPECT_NEAR(a.ledger.initial_energy, b.ledger.initial_energy, 1e-13 * a.ledger.initial_energy);
+      const double dt = allowed_step(a);
+      EXPECT_NEAR(allowed_step(b), dt, 1e-13 * dt);
+      march(a, dt, 40), march(b, dt, 40);
+      double worst = 0, v = 0;
+      for (int n = 0; n < a.order.nodes; ++n)
+        for (int k = 0; k < row::U; ++k) worst = std::max(worst, std::abs(U_of(a, n)[k] - U_of(b, n)[k]) / (k < 3 ? 100 : 1)), v = std::max(v, std::abs(U_of(a, n)[0]));
+      EXPECT_LE(worst, 1e-12) << name(p);
+      EXPECT_GT(v, 1) << name(p);
+      EXPECT_NEAR(energies(a).strain, energies(b).strain, 1e-11 * a.ledger.initial_energy);
+    }
+}
+
+TEST(Materials, BitwiseForAnyThreadCount) {
+  Scene scene = loaded_bar(10);  // several parts
+  scene.monitor.energy = true;
+  const TwoMaterials two(scene, times(rubber(), 1, 10), times(rubber(), 3, 1));
+  std::vector<std::string> hashes;
+  std::vector<double> dissipated;
+  for (const int threads : {1, 2, 3}) {
+    Simulation s = two.start(threads);
+    EXPECT_GT(s.order.parts.size(), 1u);
+    march(s, 10);
+    hashes.push_back(state_hash(s)), dissipated.push_back(s.ledger.dissipated);
+  }
+  EXPECT_EQ(hashes[0], hashes[1]);
+  EXPECT_EQ(hashes[0], hashes[2]);
+  EXPECT_EQ(dissipated[0], dissipated[1]);
+  EXPECT_EQ(dissipated[0], dissipated[2]);
+}
+
+/// Energy never grows across a jump, whichever side is the harder or denser; free everywhere, at the default step.
+TEST(Materials, EnergyNeverGrowsAcrossAThousandfoldJump) {
+  struct Jump {
+    double density, stiffness;
+  };
+  for (const Jump& j : {Jump{1, 1000}, Jump{1, 1e-3}, Jump{1000, 1}, Jump{1e-3, 1}, Jump{1000, 1e-3}})
+    for (const PhysicsSpec& p : physics_for_several()) {
+      Scene scene = free_bar(4);
+      scene.physics = p, scene.monitor.energy = true, scene.initial.twist_omega = 5;
+      const TwoMaterials two(scene, rubber(), times(rubber(), j.density, j.stiffness));
+      Simulation s = two.start();
+      double largest = 0, before = s.ledger.initial_energy, grown = 0;
+      for (int i = 0; i < 400 && !s.breakdown; ++i) {
+        march(s, 1);
+        if (i % 10 != 9) continue;
+        const Energies e = energies(s);
+        largest = std::max(largest, (e.kinetic + e.strain) / s.ledger.initial_energy);
+        grown = std::max(grown, (e.kinetic + e.strain) / before - 1), before = e.kinetic + e.strain;
+      }
+      EXPECT_FALSE(s.breakdown) << name(p) << " " << j.density << " " << j.stiffness << s.breakdown->text;
+      EXPECT_LE(grown, 1e-6) << name(p) << " " << j.density << " " << j.stiffness;
+      EXPECT_LE(largest, 1 + 1e-6) << name(p) << " " << j.density << " " << j.stiffness;
+      EXPECT_LE(energy_closure(s), 1e-3) << name(p) << " " << j.density << " " << j.stiffness;
+      EXPECT_LE(linear_momentum_drift(s), 1e-12);
+    }
+}
+
+/// Kinetic + strain + dissipated - external work, with supports and loads: the residual is one of time only.
+TEST(Materials, AuditClosesWithTheStep) {
+  double residual[2];
+  for (int k = 0; k < 2; ++k) {
+    Scene scene = loaded_bar(4);
+    scene.monitor.energy = true;
+    const TwoMaterials two(scene, times(rubber(), 1, 5), times(rubber(), 3, 1));
+    Simulation s = two.start();
+    march(s, 1e-4 / (k + 1), 60 * (k + 1));
+    residual[k] = energy_closure(s);
+  }
+  EXPECT_GE(residual[0] / residual[1], 3.5);
+  EXPECT_LE(residual[1], 1e-3);
+}
+
+TEST(Materials, PlasticBesideElastic) {
+  MaterialSpec plastic = rubber();
+  plastic.law = Law::hencky_j2, plastic.yield_stress = 5e5, plastic.hardening_modulus = 1e6;
+  Scene scene = free_bar(4);
+  scene.monitor.energy = true;
+  const TwoMaterials two(scene, times(rubber(), 1, 3), plastic);
+  Simulation s = two.start();
+  march(s, 200);
+  ASSERT_FALSE(s.breakdown) << s.breakdown->text;
+  double in_plastic = 0, in_elastic = 0;
+  for (int n = 0; n < s.order.nodes; ++n) {
+    const std::size_t r = static_cast<std::size_t>(s.order.row_of[n]);
+    double& most = s.mixture.share[1][r] > 0 ? in_plastic : in_elastic;
+    most = std::max(most, s.state.plastic[row::plastic * r + 3]);
+  }
+  EXPECT_GT(in_plastic, 0.01);
+  EXPECT_EQ(in_elastic, 0);
+  const Energies e = energies(s);
+  EXPECT_LE(e.kinetic + e.strain, s.ledger.initial_energy * (1 + 1e-6));
+  EXPECT_LE(energy_closure(s), 1e-3);
+}
+
+TEST(Materials, CentreOfMassIsWeighted) {
+  Scene scene = free_bar(3);
+  scene.initial.field = InitialField::rotation, scene.initial.omega = {1, 2, 3};
+  const TwoMaterials two(scene, rubber(), times(rubber(), 9, 1));
+  Simulation s = two.start();
+  const Momenta m = momenta(s);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(m.linear[k] / m.linear_scale, 0, 1e-14);
+}
+
+TEST(Materials, RegionWithoutMaterialIsRefused) {
+  TwoMaterials two(free_bar(2), rubber(), rubber());
+  two.mesh.region_names = {"low", "other"};
+  EXPECT_THROW(two.start(), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace nanson
