@@ -40,6 +40,8 @@ struct StepRatio {
   double nodes, naive, one, two;                  // [ns per node-step]: processor time of one thread, wall time of two; medians
   double ratio, ratio_least, ratio_most;          // naive to one thread: median and extremes over the repetitions
   double speedup;                                 // one thread to two, wall time
+  double in_cache, bytes;                         // one thread on a mesh that stays in its L2 [ns per node-step]; DRAM traffic of the model [bytes per node-step]
+  double barrier;                                 // [s] of a parallel loop over parts that do nothing, two threads
 };
 std::vector<StepRatio>& step_ratios();
 

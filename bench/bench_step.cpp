@@ -9,6 +9,7 @@
 #include "engine/counted.hpp"
 #include "bench/naive_loop.hpp"
 #include "engine/clock.hpp"
+#include "engine/parts.hpp"
 
 namespace nanson {
 namespace {
@@ -75,6 +76,23 @@ std::pair<double, double> timed(int count, Steps steps) {
   return {(wall_seconds() - wall) / count, (thread_seconds() - thread) / count};
 }
 
+/// ns per node-step on one thread with a sixth of the cells along each axis: what the cores take when memory costs nothing.
+double in_cache(Scene scene) {
+  for (int& n : scene.mesh.cells) n = std::max(2, n / 6);
+  const Mesh mesh = box_mesh(scene.mesh);
+  Simulation s = make_simulation(scene, mesh, 1);
+  fused(s, 1, 20);
+  std::vector<double> seconds;
+  for (int r = 0; r < repetitions; ++r) seconds.push_back(timed(50, [&] { fused(s, 1, 50); }).second);
+  return 1e9 * median(seconds) / s.order.nodes;
+}
+
+double barrier_seconds(Simulation& s) {
+  constexpr int count = 2000;
+  s.threads = 2;
+  return timed(count, [&] { for (int i = 0; i < count; ++i) for_parts(s, [](int, Scratch) {}); }).first;
+}
+
 Measured measure(const std::string& name, const Scene& scene) {
   Measured out;
   const Mesh mesh = box_mesh(scene.mesh);
@@ -101,7 +119,7 @@ Measured measure(const std::string& name, const Scene& scene) {
   const double ns = 1e9 / out.nodes;
   if (out.error.empty())
     step_ratios().push_back({name, out.nodes, ns * out.naive, ns * out.one, ns * out.two, median(ratio), *std::min_element(ratio.begin(), ratio.end()),
-                             *std::max_element(ratio.begin(), ratio.end()), median(speedup)});
+                             *std::max_element(ratio.begin(), ratio.end()), median(speedup), in_cache(scene), out.work.bytes / out.nodes, barrier_seconds(s)});
   return out;
 }
 

@@ -107,6 +107,21 @@ std::optional<double> kept_ratio(const std::filesystem::path& file, const std::s
   return {};
 }
 
+/// ns per node-step = in-cache time/cores + DRAM bytes/bandwidth + barriers/nodes: checked on one and two threads, and told for a node with many cores.
+void print_model() {
+  constexpr int many = 64, sweeps = 4;              // two sweeps a stage, two stages
+  constexpr double many_bandwidth = 400e9, many_nodes = 1e6;  // [bytes/s], [-]
+  fmt::print("\nmodel: in-cache time/cores + bytes/bandwidth + {} barriers (ns per node-step; measured beside it)\n", sweeps);
+  fmt::print("{:8} {:>9} {:>7} {:>20} {:>20} {:>42}\n", "scene", "in cache", "bytes", "1 thr.", "2 thr.", "64 cores, 400 GB/s, 1M nodes");
+  for (const StepRatio& r : step_ratios()) {
+    const auto told = [&](double cores, double bandwidth, double nodes, double barrier) { return r.in_cache / cores + 1e9 * r.bytes / bandwidth + 1e9 * sweeps * barrier / nodes; };
+    const double forecast = told(many, many_bandwidth, many_nodes, 5 * r.barrier);
+    fmt::print("{:8} {:9.1f} {:7.0f} {:>20} {:>20} {:>42}\n", r.scene, r.in_cache, r.bytes, fmt::format("{:.0f} ({:.0f})", told(1, update_bandwidth(1), r.nodes, 0), r.one),
+               fmt::format("{:.0f} ({:.0f})", told(2, update_bandwidth(2), r.nodes, r.barrier), r.two),
+               fmt::format("{:.1f}, barriers {:.2f} of it (5 times the {:.1f} us here)", forecast, 5e9 * sweeps * r.barrier / many_nodes, 1e6 * r.barrier));
+  }
+}
+
 void print_table(const std::optional<std::filesystem::path>& kept) {
   if (step_ratios().empty()) return;
   fmt::print("\n{:8} {:>8} {:>26} {:>24} {:>10} {:>12}\n", "", "", "ns a node-step", "plain to one thread", "two", "one to two");
@@ -115,6 +130,7 @@ void print_table(const std::optional<std::filesystem::path>& kept) {
     fmt::print("{:8} {:8.0f} {:8.1f} {:8.1f} {:8.1f} {:>24} {:10.2f} {:12.2f}\n", r.scene, r.nodes, r.naive, r.one, r.two,
                fmt::format("{:.2f} ({:.2f} to {:.2f})", r.ratio, r.ratio_least, r.ratio_most), r.naive / r.two, r.speedup);
   fmt::print("update bandwidth: {:.1f} GB/s on one thread, {:.1f} on two\n", 1e-9 * update_bandwidth(1), 1e-9 * update_bandwidth(2));
+  print_model();
   if (!kept || options().cells != full_cells) return;
   for (const StepRatio& r : step_ratios()) {
     const std::optional<double> before = kept_ratio(*kept, r.scene);

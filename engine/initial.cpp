@@ -21,6 +21,7 @@ PointState standing_wave(const Scene& scene, const Vec3& X, double t) {
   PointState out;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
+    out.u[i] = U0 * std::cos(omega * t) * s[i] * c[j] * c[k];
     out.v[i] = -U0 * omega * std::sin(omega * t) * s[i] * c[j] * c[k];
     const double a = U0 * std::cos(omega * t) * pi / 2;
     out.F[i][i] += a * c[i] * c[j] * c[k];
@@ -41,6 +42,7 @@ PointState plane_wave(const Scene& scene, const Vec3& middle, const Vec3& X, dou
   if (std::abs(s) >= 1) return out;
   const double slope = w.amplitude / w.length * -8 * s * std::pow(1 - s * s, 3);
   for (int i = 0; i < 3; ++i) {
+    out.u[i] = w.amplitude * std::pow(1 - s * s, 4) * w.direction[i];
     out.v[i] = -cp * slope * w.direction[i];
     for (int I = 0; I < 3; ++I) out.F[i][I] += slope * w.direction[i] * w.direction[I];
   }

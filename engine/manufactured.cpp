@@ -79,8 +79,10 @@ PointState manufactured_solution(const Scene& scene, const Vec3& X, double t) {
   double size[3];
   PointState out;
   for (int i = 0; i < 3; ++i) {
-    const double A = scene.initial.amplitudes[static_cast<std::size_t>(i)];
-    size[i] = A * std::cos(omega * t), out.v[static_cast<std::size_t>(i)] = -A * omega * std::sin(omega * t) * wave_derivative(w, i, {0, 0, 0});
+    const std::size_t k = static_cast<std::size_t>(i);
+    const double A = scene.initial.amplitudes[k], wave = wave_derivative(w, i, {0, 0, 0});
+    size[i] = A * std::cos(omega * t);
+    out.u[k] = size[i] * wave, out.v[k] = -A * omega * std::sin(omega * t) * wave;
   }
   const Tensor<double> F = manufactured_F(w, size);
   for (int m = 0; m < 9; ++m) out.F[m / 3][m % 3] = F[m / 3][m % 3];

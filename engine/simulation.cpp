@@ -54,7 +54,7 @@ void set_initial_state(Simulation& s) {
     double* U = &s.state.U[0][row::U * r];
     Tensor<double> F;
     for (int k = 0; k < 3; ++k) {
-      U[k] = p.v[k];
+      U[k] = p.v[k], U[4 * (k + 1) + 3] += p.u[k];
       for (int I = 0; I < 3; ++I) U[4 * (I + 1) + k] = F[k][I] = p.F[k][I];
     }
     U[3] = s.scene->physics.formulation == Formulation::pFp ? 0.0 : initial_J(*s.scene, p.F);  // undeformed: no pressure

@@ -130,10 +130,11 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
       }
     }
   if (s.scene->monitor.geometry && s.warning.empty() && s.step % s.scene->output.history_every == 0) s.warning = geometry_warning(s).value_or("");
+  if (s.t >= time.end) return "done";
   if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached", s.stopped_by = "max_steps";
   else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached", s.stopped_by = "max_wall_s";
   else if (asked_to_stop) reason = asked_to_stop(), s.stopped_by = reason.empty() ? "" : "signal";
-  return reason.empty() || s.t >= time.end ? "done" : "stopped";
+  return reason.empty() ? "done" : "stopped";
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 
 #include <cstdlib>
 
-
 #include "io/child_process.hpp"
 #include "io/replace_file.hpp"
 #include "io/text_file.hpp"
@@ -53,11 +52,15 @@ std::vector<std::string> draw(std::vector<StudyPlot>& plots, const fs::path& fol
   if (gnuplot.empty()) lines.emplace_back("gnuplot is not installed (apt-get install gnuplot-nox): the plots are left as scripts plot-N.gnuplot, table and page are written");
   for (StudyPlot& plot : plots) {
     const fs::path script = folder / (plot.name + ".gnuplot"), svg = folder / (plot.name + ".svg"), log = folder / (plot.name + ".log");
-    replace_file(script, fmt::format("# {}: gnuplot {}.gnuplot > {}.svg\n{}", plot.title, plot.name, plot.name, plot.script));
+    std::string title = plot.title;
+    replace_all(title, "\n", " ");
+    replace_file(script, fmt::format("# {}: gnuplot {}.gnuplot > {}.svg\n{}", title, plot.name, plot.name, plot.script));
     fs::remove(svg);
     if (gnuplot.empty()) continue;
     const fs::path raw = folder / (plot.name + ".tmp.svg"), run = folder / (plot.name + ".tmp.gnuplot");
-    replace_file(run, fmt::format("set output '{}'\n", raw.string()) + plot.script);
+    std::string output = raw.string();
+    replace_all(output, "'", "''");               // as gnuplot writes a quote inside quotes
+    replace_file(run, fmt::format("set output '{}'\n", output) + plot.script);
     const ChildEnd end = run_child({gnuplot.string(), run.string()}, log, {60, 5}, [] { return 0; });
     std::string why;
     const auto text = read_text_file(raw, why);

@@ -213,6 +213,7 @@ void check_several(const Scene& s, At at) {
   refuse(p.upwind_metric != UpwindMetric::deformed, "physics", "upwind_metric", "deformed");
   refuse(p.entropy_fix != EntropyFix::none, "physics", "entropy_fix", "none");
   refuse(p.keep_angular_momentum, "physics", "keep_angular_momentum", "false");
+  refuse(p.description != Description::total, "physics", "description", "total");
   if (s.initial.field == InitialField::standing_wave || s.initial.field == InitialField::plane_wave || s.initial.field == InitialField::manufactured)
     at("initial", "field", "is the exact solution of one material, not of several");
   for (std::size_t i = 1; i < s.materials.size(); ++i)

@@ -25,8 +25,9 @@ struct MeshCache {
 };
 
 std::string mesh_key(const MeshSpec& m) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {}", word(m.source), fmt::join(m.origin, " "), fmt::join(m.size, " "), fmt::join(m.cells, " "), word(m.split),
-                     m.perturb, m.radius, m.length, word(m.sector), m.inner, m.outer, m.angle, m.file.name);
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", word(m.source), fmt::join(m.origin, " "), fmt::join(m.size, " "), fmt::join(m.cells, " "), word(m.split),
+                     m.perturb, m.radius, m.length, word(m.sector), m.inner, m.outer, m.angle, m.file.name, word(m.regions.axis),
+                     fmt::join(m.regions.at, " "), fmt::join(m.regions.names, " "));
 }
 
 const Mesh& mesh_of(MeshCache& cache, const Scene& scene) {

@@ -8,6 +8,7 @@ namespace nanson {
 std::optional<std::string> read_text_file(const std::filesystem::path& file, std::string& why) {
   namespace fs = std::filesystem;
   std::error_code error;
+  why.clear();
   const fs::file_status status = fs::status(file, error);
   if (!fs::exists(status)) why = "no such file";
   else if (!fs::is_regular_file(status)) why = "is not a file";

@@ -19,8 +19,8 @@ XHTML, SVG = "{http://www.w3.org/1999/xhtml}", "{http://www.w3.org/2000/svg}"
 HAS_GNUPLOT = shutil.which("gnuplot") is not None
 
 
-def start(study, **more):
-    return subprocess.Popen([NANSON, "study", str(study), "--out", "out"], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, **more)
+def start(study, out="out", **more):
+    return subprocess.Popen([NANSON, "study", str(study), "--out", out], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True, **more)
 
 
 def study(path, code=0, **more):
@@ -198,6 +198,12 @@ def test_without_gnuplot():
     check_links(page, "report.html")
     assert len(list(page.iter(XHTML + "figure"))) == 4 and not list(page.iter(SVG + "svg"))
     assert len(list(Path("out").glob("plot-*.gnuplot"))) == 4
+
+
+def test_a_quote_in_the_folder():
+    err = study(STUDIES / "smoke_map.toml", out="it's")
+    assert "could not draw" not in err, err
+    assert len(list(Path("it's").glob("plot-*.svg"))) == HAS_GNUPLOT
 
 
 def test_bad_input_starts_nothing():

@@ -51,7 +51,7 @@ Tensor<double> stress(const Scene& scene, const Vec3& X, double t) {
 
 using Displacement = std::function<double(int, const Vec3&, double)>;
 
-/// F = I + grad u and v = du/dt at random points and times. `length` and `time` are the scales of the field.
+/// u, F = I + grad u and v = du/dt at random points and times. `length` and `time` are the scales of the field.
 void expect_motion(const Scene& scene, const Displacement& u, const std::function<Vec3(Random&)>& point, double length, double time) {
   Random random(1);
   const double U = scene.initial.amplitude;
@@ -60,6 +60,7 @@ void expect_motion(const Scene& scene, const Displacement& u, const std::functio
     const double t = uniform(random, 0, time);
     const PointState p = exact_solution(scene, middle, X, t);
     for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(p.u[i], u(i, X, t), 1e-12 * U);
       EXPECT_NEAR(p.v[i], slope([&](double h) { return u(i, X, t + h); }, 1e-3 * time), 1e-6 * U / time);
       for (int I = 0; I < 3; ++I)
         EXPECT_NEAR(p.F[i][I] - (i == I), slope([&](double h) { return u(i, moved(X, I, h), t); }, 1e-3 * length), 1e-6 * U / length);

@@ -52,6 +52,7 @@ TEST(Manufactured, VelocityAndDeformationAreThoseOfOneMotion) {
     const double t = when(random);
     const PointState p = manufactured_solution(s, X, t);
     for (int i = 0; i < 3; ++i) {
+      EXPECT_NEAR(p.u[i], displacement(s, X, t)[i], 1e-14);
       EXPECT_NEAR(p.v[i], slope([&](double h) { return displacement(s, X, t + h)[i]; }, 1e-5), 1e-6);
       for (int I = 0; I < 3; ++I) EXPECT_NEAR(p.F[i][I] - (i == I), slope([&](double h) { return displacement(s, shifted(X, I, h), t)[i]; }, 1e-3), 1e-9);
     }

@@ -200,6 +200,15 @@ TEST(StudyHash, ChangesWithTheContentOfTheMeshFile) {
   EXPECT_NE(hash(), before);
 }
 
+TEST(Study, RunsWithOtherRegionsHaveAMeshOfTheirOwn) {
+  const std::string layers = R"("mesh.regions" = [{ axis = "z", at = [1.5], names = ["low", "high"] }, { axis = "z", at = [1.5], names = ["low", "top"] }])";
+  const std::string text = edited(edited(edited(cube_study, "\"mesh.cells\" = [[2, 2, 2], [4, 4, 4]]", layers), "rate_over = \"mesh.cells\"\n", ""), "[set]\n", "[set]\n\"mesh.cells\" = [1, 1, 4]\n");
+  const Prepared p = prepared(text, edited(cube_scene, "[material]\n", "[[material]]\nregion = [\"low\", \"high\"]\n"));
+  ASSERT_EQ(p.errors.size(), 2u) << joined(p.errors);
+  EXPECT_NE(joined(p.errors).find("material.0.region = \"high\": unknown region"), std::string::npos) << joined(p.errors);
+  EXPECT_NE(joined(p.errors).find("no [[material]] is for region \"top\""), std::string::npos) << joined(p.errors);
+}
+
 TEST(TomlText, IsReadBackByASetting) {
   for (const char* text : {"1", "0.25", "1e-10", "3.0", "\"a \\\"b\\\" = c\"", "true", "[1, 2, 3]", "[[0.0, 1.5], [1.0, 2.0]]", "{ kind = \"ramp\", until = 0.01 }", "[]", "{  }"}) {
     const toml::table one = toml::parse("v = " + std::string(text));

@@ -89,7 +89,8 @@ TEST(SceneMaterials, WhatIsNotBuiltWithSeveralIsRefused) {
            {"flux_correction = \"full\"", "flux_correction = \"full\": is not built with several materials, allowed: none"},
            {"upwind_metric = \"paper\"", "upwind_metric = \"paper\": is not built with several materials, allowed: deformed"},
            {"entropy_fix = \"edge\"", "entropy_fix = \"edge\": is not built with several materials, allowed: none"},
-           {"keep_angular_momentum = true", "keep_angular_momentum = true: is not built with several materials, allowed: false"}}) {
+           {"keep_angular_momentum = true", "keep_angular_momentum = true: is not built with several materials, allowed: false"},
+           {"description = \"updated\"", "description = \"updated\": is not built with several materials, allowed: total"}}) {
     const SceneResult r = read_text(physics(line));
     ASSERT_EQ(r.errors.size(), 1u) << line << joined(r.errors);
     EXPECT_NE(r.errors[0].find("scene.toml:21:"), std::string::npos) << r.errors[0];
