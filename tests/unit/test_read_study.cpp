@@ -218,5 +218,17 @@ TEST(TomlText, IsReadBackByASetting) {
   }
 }
 
+TEST(Study, ThoseOfTheRepositoryAreValid) {
+  int count = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(std::string(NANSON_SOURCE_DIR) + "/configs/studies")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++count;
+    StudyResult r = read_study(entry.path());
+    if (r.errors.empty()) prepare(r.study, r.errors);
+    EXPECT_TRUE(r.errors.empty()) << entry.path() << joined(r.errors);
+  }
+  EXPECT_GE(count, 15);
+}
+
 }  // namespace
 }  // namespace nanson
