@@ -64,7 +64,7 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s) {
     return out;
   }
   out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::Q : 0) + (c.limited ? bytes::L : 0)) +
-              s.edges * bytes::edge + s.corners * (bytes::corner + bytes::corner_load);
+              s.edges * (bytes::edge + 4) + s.corners * (bytes::corner + bytes::corner_load);
   double flops = 3 * (6 + 1 + 12) + n;                                  // averages of P and H times C; jump
   if (c.linear) flops += 3 + 3 * n + 6 * n + 2 * n;                     // D; G_a + G_b; times D; subtracted
   if (c.limited) flops += 6 * n;                                        // the slopes of a and b apart, times the limiter

@@ -83,9 +83,13 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   std::string reason;
   const std::string status = run(s, observer, reason);
   Summary summary = summarise(s, probes, status, reason);
-  constexpr std::size_t beyond_L3 = 8 << 20;       // doubles: 64 MB an array
-  summary.throughput = throughput(s, options.quiet ? 0.0 : update_bandwidth(s.threads, beyond_L3, 3));
+  summary.throughput = throughput(s, 0);
   write_summary(folder.path() / "summary.json", summary, from);
+  if (!options.quiet && summary.throughput) {      // again with the bandwidth, whose measurement takes 128 MB: nothing is lost if it fails
+    constexpr std::size_t beyond_L3 = 8 << 20;     // doubles: 64 MB an array
+    summary.throughput = throughput(s, update_bandwidth(s.threads, beyond_L3, 3));
+    write_summary(folder.path() / "summary.json", summary, from);
+  }
   if (!reason.empty()) progress.message(status + ": " + reason);
   say(options, closing_line(summary));
   return status == "breakdown" ? 3 : stop_signal() ? 128 + stop_signal() : 0;

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs studies and gathers their plots, tables and verdicts on one page that a repository shows: results/README.md beside this file.
+"""Runs studies and gathers their plots, tables and verdicts on one page that a repository shows: measured/README.md beside this file.
 
     configs/studies/publish.py PROGRAM [STUDY.toml ...]
 
@@ -14,17 +14,14 @@ import sys
 import tomllib
 
 HERE = pathlib.Path(__file__).parent
-PAGE = HERE / "results"
-SHORT = {"sound": "yes", "J <= 0": "J <= 0", "energy grew": "energy"}
-
-
-def plain(value):
-    return value if isinstance(value, str) else re.sub(r"\s+", " ", str(value)).replace("True", "true").replace("False", "false")
+PAGE = HERE / "measured"
+SHORT = {"sound": "yes", "energy grew": "energy"}
 
 
 def number(text):
     try:
-        return f"{float(text):.3g}"
+        value = float(text)
+        return f"{value:.0f}" if value.is_integer() and abs(value) < 1e9 else f"{value:.3g}"
     except ValueError:
         return text
 
@@ -68,7 +65,7 @@ def section(file, study, rows):
     out = [f"## {report.get('title', name)}", report.get("text", ""), ""]
     out.append(f"`./nanson study configs/studies/{file.name}`: {len(rows)} runs, " + ", ".join(f"{len(v)} {k}" for k, v in verdicts.items()) + f"; commit {rows[-1]['commit']}.")
     out.append("")
-    for plot in sorted((PAGE / name).glob("*.svg")):
+    for plot in sorted((PAGE / name).glob("*.svg"), key=lambda f: int(f.stem.split("-")[1])):
         out.append(f"![{name}]({name}/{plot.name})")
     out.append("")
     out += map_table(study, rows) if study["kind"] == "stability" else result_table(study, rows)
