@@ -5,6 +5,7 @@
 
 #include "bench/bench.hpp"
 #include "engine/aligned.hpp"
+#include "engine/bandwidth.hpp"
 #include "engine/clock.hpp"
 
 namespace nanson {
@@ -33,13 +34,7 @@ void triad(Arrays& x, int threads) {
   for (std::ptrdiff_t i = 0; i < n; ++i) a[i] = b[i] + 0.5 * c[i];
 }
 
-/// a = a/2 + b: 2 reads, 1 write, nothing else.
-void update(Arrays& x, int threads) {
-  const auto n = static_cast<std::ptrdiff_t>(x.a.size());
-  double *a = x.a.data(), *b = x.b.data();
-#pragma omp parallel for schedule(static) num_threads(threads)
-  for (std::ptrdiff_t i = 0; i < n; ++i) a[i] = 0.5 * a[i] + b[i];
-}
+void update(Arrays& x, int threads) { update_pass(x.a.data(), x.b.data(), static_cast<std::ptrdiff_t>(x.a.size()), threads); }
 
 bool all_near(const Aligned<double>& x, double wanted) {
   for (double v : x)

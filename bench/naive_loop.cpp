@@ -7,9 +7,6 @@
 #include <stdexcept>
 
 #include "engine/time_function.hpp"
-#include "kernels/materials/linear_elastic.hpp"
-#include "kernels/materials/mooney_rivlin.hpp"
-#include "kernels/materials/neo_hookean.hpp"
 
 namespace nanson {
 namespace {
@@ -44,8 +41,6 @@ struct Baseline {
 bool is_baseline(const AnyChoice& c) {
   return c.linear() && !c.limited() && !c.fixed() && !c.jst() && !c.tensor() && !c.current() && c.deformed() && c.correction() == FluxCorrection::none;
 }
-
-double dot(const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
 /// Green-Gauss gradient of `count` numbers a node, value(node)[k] and gradient(node)[k][I], with the (6,1,1)/8 rule at the boundary (eq. 29, 43a).
 template <int count, class Value>
@@ -397,137 +392,7 @@ void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<N
   }
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
-void material_pass(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H_of) {
-  const MaterialConstants& m = n.material;
-  const bool deformed = n.scene->physics.upwind_metric == UpwindMetric::deformed, jst = n.scene->physics.stabilisation == Stabilisation::jst;
-  n.report = {};
-  for (std::size_t a = 0; a < nodes.size(); ++a) {
-    const NaiveNode& U = nodes[a];
-    Tensor<double> F, H{};
-    for (int k = 0; k < 9; ++k) F[k / 3][k % 3] = U.F[k / 3][k % 3];
-    if (formulation == Formulation::pFHJ)
-      for (int k = 0; k < 9; ++k) H[k / 3][k % 3] = H_of[a][k / 3][k % 3];
-    const Stress<double> s = Material<law, volumetric, isochoric, formulation>::stress(F, H, U.J, m);
-    for (int k = 0; k < 9; ++k) n.stress[a].P[k / 3][k % 3] = s.P[k / 3][k % 3], n.stress[a].H[k / 3][k % 3] = s.H[k / 3][k % 3];
-    for (int k = 0; k < 9 && !n.dJ.empty(); ++k) n.stress[a].H[k / 3][k % 3] = dot(n.stress[a].P[k / 3], U.F[k % 3]) / U.J;
-    n.W[a] = {U.v[0], U.v[1], U.v[2], !jst ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : U.J};
-    double c = std::sqrt(s.rho_c2 / m.rho);
-    if (formulation != Formulation::pF && law != Law::linear_elastic) c = std::max(c, s.d2U / (m.rho * m.cp) * (deformed ? std::sqrt(s.H2) : s.H2));
-    n.report.fastest = std::max(n.report.fastest, c / n.step_length[a]);
-    if (!(s.det_F > 0) || !std::isfinite(dot(U.v, U.v)) || (formulation != Formulation::pF && !(U.J > 0))) n.report.broken = true;
-  }
-}
-
-template <Law law, Volumetric volumetric, Isochoric isochoric>
-void material_of_formulation(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H) {
-  switch (n.scene->physics.formulation) {
-    case Formulation::pF: return material_pass<law, volumetric, Isochoric::F, Formulation::pF>(n, nodes, H);
-    case Formulation::pFJ: return material_pass<law, volumetric, isochoric, Formulation::pFJ>(n, nodes, H);
-    case Formulation::pFHJ: return material_pass<law, volumetric, isochoric, Formulation::pFHJ>(n, nodes, H);
-    case Formulation::pFp: throw std::invalid_argument("the plain loop has no projection");
-  }
-}
-
-template <Law law>
-void material_of_law(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H) {
-  const MaterialSpec& m = n.scene->material;
-  if (m.volumetric == Volumetric::quadratic && m.isochoric == Isochoric::F) material_of_formulation<law, Volumetric::quadratic, Isochoric::F>(n, nodes, H);
-  else if (m.volumetric == Volumetric::quadratic) material_of_formulation<law, Volumetric::quadratic, Isochoric::J>(n, nodes, H);
-  else if (m.isochoric == Isochoric::F) material_of_formulation<law, Volumetric::barrier, Isochoric::F>(n, nodes, H);
-  else material_of_formulation<law, Volumetric::barrier, Isochoric::J>(n, nodes, H);
-}
-
-void material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H) {
-  switch (n.scene->material.law) {
-    case Law::linear_elastic: return material_of_formulation<Law::linear_elastic, Volumetric::quadratic, Isochoric::F>(n, nodes, H);
-    case Law::neo_hookean: return material_of_law<Law::neo_hookean>(n, nodes, H);
-    case Law::mooney_rivlin: return material_of_law<Law::mooney_rivlin>(n, nodes, H);
-    case Law::hencky_j2: throw std::invalid_argument("the plain loop has no plasticity");
-  }
-}
-
-void copy_state(NaiveLoop& n, const Simulation& s) {
-  for (std::size_t a = 0; a < n.row.size(); ++a) {
-    const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * n.row[a])];
-    NaiveNode& node = n.now[a];
-    node.J = U[3];
-    for (int i = 0; i < 3; ++i) {
-      node.v[i] = U[i], node.x[i] = U[4 * (i + 1) + 3];
-      for (int I = 0; I < 3; ++I) node.F[i][I] = U[4 * (I + 1) + i];
-    }
-    if (n.H_now.empty()) continue;
-    for (int m = 0; m < 9; ++m) n.H_now[a][m % 3][m / 3] = s.state.H[0][static_cast<std::size_t>(row::H * n.row[a] + 4 * (m / 3) + m % 3)];
-  }
-}
-
-void allocate(NaiveLoop& n) {
-  const std::size_t nodes = n.row.size();
-  const PhysicsSpec& p = n.scene->physics;
-  const bool full = p.flux_correction == FluxCorrection::full;
-  n.now.resize(nodes), n.stage.resize(nodes), n.W.resize(nodes), n.stress.resize(nodes), n.G.resize(nodes), n.force.resize(nodes);
-  if (p.formulation == Formulation::pFHJ) n.H_now.resize(nodes), n.H_stage.resize(nodes);
-  if (full || (p.pressure_jump == PressureJump::tensor && p.reconstruction != Reconstruction::constant)) n.GP.resize(nodes);
-  if (full) n.Q.resize(nodes);
-  if (p.flux_correction != FluxCorrection::none) n.dG.resize(nodes);
-  if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) n.L.resize(nodes);
-}
-
-/// lambda_a = -M^-1 R, R = sum_b D, M = sum_b D (x) D: the pseudo-Laplacian of a linear field is zero (method, section 9).
-void find_lambda(NaiveLoop& n) {
-  std::vector<Eigen::Vector3d> R(n.row.size(), Eigen::Vector3d::Zero());
-  std::vector<Eigen::Matrix3d> M(n.row.size(), Eigen::Matrix3d::Zero());
-  for (const NaiveEdge& e : n.edges) {
-    const Eigen::Vector3d D = Eigen::Vector3d(n.X[e.b].data()) - Eigen::Vector3d(n.X[e.a].data());
-    R[e.a] += D, M[e.a] += D * D.transpose();
-    R[e.b] -= D, M[e.b] += D * D.transpose();
-  }
-  for (std::size_t a = 0; a < n.row.size(); ++a) {
-    const Eigen::Vector3d lambda = -M[a].inverse() * R[a];
-    n.lambda.push_back({lambda[0], lambda[1], lambda[2]});
-  }
-}
-
-void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_row) {
-  for (int r = 0; r < o.rows; ++r) {
-    for (std::int32_t e = o.out[r]; e < o.out[r + 1]; ++e)
-      if (o.b[e] > r) n.edges.push_back({node_of_row[r], node_of_row[o.b[e]], {o.C[0][e], o.C[1][e], o.C[2][e]}, std::hypot(o.C[0][e], o.C[1][e], o.C[2][e])});
-    for (std::int32_t g = o.corner[r]; g < o.corner[r + 1]; ++g)
-      n.corners.push_back({node_of_row[r], node_of_row[o.corner_b[g]], node_of_row[o.corner_c[g]], {o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]}});
-  }
-}
-
 }  // namespace
-
-NaiveLoop make_naive_loop(const Simulation& s) {
-  NaiveLoop n;
-  n.scene = s.scene, n.material = s.coefficients.material, n.t = s.t;
-  std::vector<int> node_of_row(static_cast<std::size_t>(s.order.rows), -1);
-  for (int r = 0; r < s.order.rows; ++r) {
-    const int node = s.order.node_of[r];
-    if (node < 0) continue;
-    node_of_row[r] = static_cast<int>(n.row.size());
-    n.row.push_back(r), n.X.push_back(s.mesh->X[node]), n.volume.push_back(s.volume[node]), n.step_length.push_back(s.state.step_length[r]);
-  }
-  place_edges(n, s.order, node_of_row);
-  n.constraints = s.boundary.constraints, n.loaded = s.boundary.loaded;
-  for (Constraint& h : n.constraints) h.node = node_of_row[h.node];
-  for (LoadedFace& f : n.loaded)
-    for (int& node : f.node) node = node_of_row[node];
-  allocate(n);
-  if (n.scene->physics.stabilisation == Stabilisation::jst) find_lambda(n);
-  if (has_current_areas(n.scene->physics.description)) {
-    for (auto t : s.mesh->tets) {
-      for (int& node : t) node = node_of_row[s.order.row_of[node]];
-      n.tets.push_back(t);
-    }
-    n.current_edges = n.edges, n.current_corners.resize(n.corners.size()), n.dJ.resize(n.row.size());
-    if (n.scene->physics.description == Description::pseudo_updated) n.grad_x.resize(n.row.size()), n.H_x.resize(n.row.size());
-  }
-  copy_state(n, s);
-  material(n, n.now, n.H_now);
-  return n;
-}
 
 void naive_stage(NaiveLoop& n, int number, double dt) {
   constexpr Weights rk2[] = {{0, 1, 0}, {0.5, 0.5, 0}}, rk3[] = {{0, 1, 0}, {0.75, 0.25, 0}, {1.0 / 3, 2.0 / 3, 0}};
@@ -546,7 +411,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   boundary_pass(n, from, n.t + at[number] * dt);
   hold(n, dt);
   update_pass(n, from, to, H_from, H_to, w);
-  material(n, to, H_to);
+  naive_material(n, to, H_to);
 }
 
 void naive_advance(NaiveLoop& n, double dt) {
@@ -569,41 +434,6 @@ double naive_dissipation(NaiveLoop& n) {
     for (int k = 0; k < 4; ++k) power += (n.W[e.b][k] - n.W[e.a][k]) * d[k];
   }
   return power;
-}
-
-double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U_of, const double* W_of, const double* PH_of) {
-  struct Field {
-    double size = 0, difference = 0;
-    void add(double ours, double theirs) {
-      size = std::max(size, std::abs(ours));
-      const double d = std::abs(ours - theirs);
-      if (!(d <= difference)) difference = std::isnan(d) ? HUGE_VAL : d;
-    }
-  } v, J, F, x, H, swept, P;
-  for (std::size_t a = 0; a < n.row.size(); ++a) {
-    const NaiveNode& node = nodes[a];
-    const std::size_t r = static_cast<std::size_t>(n.row[a]);
-    const double *U = U_of + row::U * r, *PH = PH_of + row::PH * r;
-    J.add(node.J, U[3]), swept.add(n.W[a][3], W_of[row::W * r + 3]);
-    for (int i = 0; i < 3; ++i) {
-      v.add(node.v[i], U[i]), x.add(node.x[i], U[4 * (i + 1) + 3]);
-      for (int I = 0; I < 3; ++I) {
-        F.add(node.F[i][I], U[4 * (I + 1) + i]);
-        P.add(n.stress[a].P[i][I], PH[8 * I + i]), H.add(n.stress[a].H[i][I], PH[8 * I + 4 + i]);
-      }
-    }
-  }
-  P.size = std::max(P.size, 0.1 * n.material.kappa);
-  if (!n.dJ.empty()) H.size = std::max(H.size, 0.1 * n.material.kappa);  // the Cauchy stress
-  if (n.lambda.empty()) swept.size = std::max(swept.size, 0.1 * n.material.kappa);
-  double worst = 0;
-  for (const Field& f : {v, J, F, x, H, swept, P})
-    if (f.difference > 0) worst = std::max(worst, f.difference / f.size);
-  return worst;
-}
-
-double largest_difference(const NaiveLoop& n, const Simulation& s) {
-  return largest_difference(n, n.now, s.state.U[0].data(), s.state.W[s.state.now].data(), s.state.PH[s.state.now].data());
 }
 
 }  // namespace nanson

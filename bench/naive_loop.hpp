@@ -8,6 +8,8 @@
 
 namespace nanson {
 
+inline double dot(const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+
 struct NaiveNode {
   double v[3];                    // [m/s]
   double J;
@@ -62,6 +64,9 @@ struct NaiveLoop {
 
 /// The same state, geometry, supports and loads as a simulation.
 NaiveLoop make_naive_loop(const Simulation& s);
+
+/// Stress and what is swept, of all nodes.
+void naive_material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H);
 
 /// Stage `number` of a step of size dt from n.t: the first writes n.stage, the last n.now; then the stress of what was written.
 void naive_stage(NaiveLoop& n, int number, double dt);

@@ -4,7 +4,10 @@
 
 namespace nanson {
 
-/// Bandwidth of a = a/2 + b, 2 reads and 1 write, best of some repetitions over two arrays of `length` doubles, well beyond L3 [bytes/s].
+/// a = a/2 + b over n doubles: 2 reads and 1 write, and nothing is fetched that is not read.
+void update_pass(double* a, const double* b, std::ptrdiff_t n, int threads);
+
+/// Bandwidth of that pass, best of some repetitions over two arrays of `length` doubles, well beyond L3 [bytes/s].
 double update_bandwidth(int threads, std::size_t length, int repetitions);
 
 }  // namespace nanson

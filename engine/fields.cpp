@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/hash.hpp"
 #include "engine/initial.hpp"
 #include "engine/manufactured.hpp"
 
@@ -141,21 +142,15 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
 }
 
 std::string state_hash(const Simulation& s) {
-  std::uint64_t h = 14695981039346656037ull;
-  const auto add = [&](const double* p, int count) {
-    for (int k = 0; k < count; ++k) {
-      std::uint64_t bits;
-      std::memcpy(&bits, p + k, sizeof bits);
-      for (int b = 0; b < 64; b += 8) h = (h ^ (bits >> b & 255)) * 1099511628211ull;
-    }
-  };
+  Hash hash;
+  const auto add = [&](const double* p, std::size_t count) { hash.add(p, count * sizeof(double)); };
   for (int n = 0; n < s.order.nodes; ++n) {
     add(U_row(s, n), row::U);
     const auto r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
     if (!s.state.H[0].empty()) add(&s.state.H[0][row::H * r], row::H);
     if (!s.state.plastic.empty()) add(&s.state.plastic[row::plastic * r], row::plastic);
   }
-  return fmt::format("{:016x}", h);
+  return hash.text();
 }
 
 }  // namespace nanson

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <cstdlib>
 
+#include "engine/hash.hpp"
+
 namespace nanson {
 namespace {
 
@@ -98,9 +100,9 @@ std::optional<double> observed_rate(double coarse_h, double coarse_error, double
 }
 
 std::string text_hash(std::string_view text) {
-  std::uint64_t h = 14695981039346656037ull;
-  for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 1099511628211ull;
-  return fmt::format("{:016x}", h);
+  Hash hash;
+  hash.add(text.data(), text.size());
+  return hash.text();
 }
 
 }  // namespace nanson

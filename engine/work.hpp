@@ -34,7 +34,7 @@ struct Carried {
 namespace bytes {
 inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, Q = 96, GP = 288, L = 32, lambda = 32, step_length = 8;
 inline constexpr double lists = 12;                                  // out, in, corner
-inline constexpr double edge = 28, in_edge = 8;                      // b, C; edge number and a
+inline constexpr double edge = 28, edge_a = 4, in_edge = 8;          // b, C; a; edge number and a
 inline constexpr double corner = 32, corner_load = 4;                // b, c, C; load
 }  // namespace bytes
 
@@ -64,7 +64,7 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s) {
     return out;
   }
   out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::Q : 0) + (c.limited ? bytes::L : 0)) +
-              s.edges * (bytes::edge + 4) + s.corners * (bytes::corner + bytes::corner_load);
+              s.edges * (bytes::edge + bytes::edge_a) + s.corners * (bytes::corner + bytes::corner_load);
   double flops = 3 * (6 + 1 + 12) + n;                                  // averages of P and H times C; jump
   if (c.linear) flops += 3 + 3 * n + 6 * n + 2 * n;                     // D; G_a + G_b; times D; subtracted
   if (c.limited) flops += 6 * n;                                        // the slopes of a and b apart, times the limiter
