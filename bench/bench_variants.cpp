@@ -51,7 +51,7 @@ Colours colour(const Order& o) {
     }
     if (!edges.empty()) out.begin.push_back(static_cast<int>(out.a.size()));
   }
-  const std::size_t padded = out.a.size() + 64;     // prefetching reads ahead
+  const std::size_t padded = out.a.size() + edge_padding;
   out.a.resize(padded), out.b.resize(padded);
   for (auto& C : out.C) C.resize(padded);
   return out;
@@ -62,7 +62,7 @@ Order both_ways(const Order& o) {
   Order out = o;
   out.a.clear(), out.b.clear(), out.in_edges.clear();
   for (auto& C : out.C) C.clear();
-  out.most_rows = 0;
+  out.most_edges = 0;
   for (Part& part : out.parts) {
     part.edge_begin = static_cast<int>(out.a.size());
     for (int n = part.node_begin; n < part.node_end; ++n) {
@@ -75,11 +75,11 @@ Order both_ways(const Order& o) {
       for (int i = o.in[n]; i < o.in[n + 1]; ++i) add(o.a[o.in_edges[i]], o.in_edges[i], -1);
     }
     part.edge_end = static_cast<int>(out.a.size());
-    out.most_rows = std::max(out.most_rows, part.edge_end - part.edge_begin + part.corner_end - part.corner_begin);
+    out.most_edges = std::max(out.most_edges, part.edge_end - part.edge_begin);
   }
   out.out[o.rows] = static_cast<int>(out.a.size()), out.in[o.rows] = 0;
-  out.a.resize(out.a.size() + 64), out.b.resize(out.b.size() + 64);
-  for (auto& C : out.C) C.resize(C.size() + 64);
+  out.a.resize(out.a.size() + edge_padding), out.b.resize(out.b.size() + edge_padding);
+  for (auto& C : out.C) C.resize(C.size() + edge_padding);
   return out;
 }
 
@@ -89,9 +89,9 @@ struct Bed {
   Simulation s = make_simulation(scene, mesh, 2);
   Colours colours = colour(s.order);
   Order twice = both_ways(s.order);
-  Aligned<double> edge_array = Aligned<double>(4 * (static_cast<std::size_t>(s.order.out.back()) + s.order.corner_b.size()), 0.0);
+  Aligned<double> edge_array = Aligned<double>(4 * (static_cast<std::size_t>(s.order.out.back()) + 8 * s.order.parts.size()), 0.0);
   Aligned<double> force = Aligned<double>(4 * static_cast<std::size_t>(s.order.rows), 0.0);
-  std::vector<Aligned<double>> large = std::vector<Aligned<double>>(2, Aligned<double>(4 * static_cast<std::size_t>(twice.most_rows), 0.0));  // one a thread
+  std::vector<Aligned<double>> large = std::vector<Aligned<double>>(2, Aligned<double>(4 * static_cast<std::size_t>(twice.most_edges + 8), 0.0));  // one a thread
   Rows rows = stage_rows(s.state, 0, 1);
   Coefficients k = s.coefficients;
 
@@ -130,12 +130,10 @@ void add_row(double* to, Vec4 row) { store4(to, load4(to) + row); }
 
 /// Corners of a part onto its nodes' forces, supports, update.
 void finish_part(Bed& bed, const Part& p, const Scratch& scratch) {
-  Part corners_only = p;
-  corners_only.edge_begin = corners_only.edge_end = 0;
   const auto lists = bed.s.order.lists();
-  corner_forces<none>(corners_only, bed.s.order.corners(), lists, bed.rows, bed.k, scratch.edge);
+  corner_forces<none>(p, bed.s.order.corners(), lists, bed.rows, bed.k, scratch.corner);
   for (int n = p.node_begin; n < p.node_end; ++n)
-    for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g) add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.edge + 4 * (g - p.corner_begin)));
+    for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g) add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
   constrain<Materials::one>(p, bed.rows, bed.k, bed.s.boundary.constraints.data(), bed.s.state.reactions.data(), scratch);
   update<Formulation::pFJ, false, Areas::undeformed, Materials::one>(p, bed.rows, bed.k, scratch);
 }
@@ -170,7 +168,7 @@ void node_centric(Bed& bed) {
 
 void global_edge_array(Bed& bed) {
   const auto placed = [&](int p, Scratch scratch) {
-    scratch.edge = bed.edge_array.data() + 4 * static_cast<std::ptrdiff_t>(bed.part(p).edge_begin + bed.part(p).corner_begin);
+    scratch.edge = bed.edge_array.data() + 4 * static_cast<std::ptrdiff_t>(bed.part(p).edge_begin + 8 * p);
     return scratch;
   };
   bed.gradient(bed.s.order);

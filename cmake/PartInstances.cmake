@@ -60,9 +60,9 @@ foreach(material hencky_j2:quadratic:F neo_hookean:quadratic:F neo_hookean:barri
   list(GET triple 0 law)
   list(GET triple 1 volumetric)
   list(GET triple 2 isochoric)
-  string(APPEND CAUCHY "template PartReport cauchy_stress_part<Law::${law}, Volumetric::${volumetric}, Isochoric::${isochoric}>(const Part&, const Rows&, const Coefficients&, const double*)\;\n")
+  string(APPEND CAUCHY "template PartReport stress_part<Law::${law}, Volumetric::${volumetric}, Isochoric::${isochoric}, Formulation::pFJ, Areas::current>(const Part&, const Rows&, const Coefficients&, const double*)\;\n")
 endforeach()
-add_instance(cauchy_stress cauchy_stress_part.hpp "${CAUCHY}")
+add_instance(cauchy_stress stress_part.hpp "${CAUCHY}")
 # Several materials: a density a node, impedances an edge.
 foreach(reconstruction constant linear)
   foreach(evolves_J true false)

@@ -181,7 +181,9 @@ PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& ro
     Rows mine = rows;
     mine.PH_new = PH - row::PH * static_cast<std::ptrdiff_t>(run.begin), mine.W_new = W - row::W * static_cast<std::ptrdiff_t>(run.begin);
     mine.X = rows_of_material(run, run.end, rows, share, X);
-    const PartReport own = law.functions.stress(part, mine, of_law(k, law), step_length);
+    Coefficients own_k = of_law(k, law);
+    own_k.streams = false;                          // read again at once
+    const PartReport own = law.functions.stress(part, mine, own_k, step_length);
     report.fastest = std::max(report.fastest, own.fastest), report.broken = report.broken || own.broken, report.plastic_work += own.plastic_work;
     const bool first = r == present.front();
     for (int n = run.begin; n < run.end; ++n) {

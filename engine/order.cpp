@@ -148,9 +148,9 @@ void place_edges(Order& o, const Dual& dual) {
   std::vector<Half> halves(static_cast<std::size_t>(o.out.back()));
   std::vector<int> next(o.out.begin(), o.out.end() - 1);
   visit([&](int a, int b, int e, bool flipped) { halves[next[a]++] = {b, e, flipped}; });
-  const std::size_t count = halves.size(), padding = 64;  // prefetching reads ahead of the last edge
-  o.a.assign(count + padding, 0), o.b.assign(count + padding, 0);
-  for (auto& C : o.C) C.assign(count + padding, 0);
+  const std::size_t count = halves.size();
+  o.a.assign(count + edge_padding, 0), o.b.assign(count + edge_padding, 0);
+  for (auto& C : o.C) C.assign(count + edge_padding, 0);
   o.in.assign(static_cast<std::size_t>(o.rows) + 1, 0);
   for (int a = 0; a < o.rows; ++a) {
     std::sort(halves.begin() + o.out[a], halves.begin() + o.out[a + 1], [](const Half& p, const Half& q) { return p.b < q.b; });
@@ -195,7 +195,7 @@ Order make_order(const Dual& dual, int nodes, bool try_metis, const std::vector<
   for (auto& p : o.parts) {
     p.edge_begin = o.out[p.node_begin], p.edge_end = o.out[p.node_end];
     p.corner_begin = o.corner[p.node_begin], p.corner_end = o.corner[p.node_end];
-    o.most_rows = std::max(o.most_rows, (p.edge_end - p.edge_begin) + (p.corner_end - p.corner_begin));
+    o.most_edges = std::max(o.most_edges, p.edge_end - p.edge_begin), o.most_corners = std::max(o.most_corners, p.corner_end - p.corner_begin);
   }
   return o;
 }

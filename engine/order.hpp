@@ -13,6 +13,12 @@ namespace nanson {
 /// smaller meshes take smaller parts, so that threads have some to share.
 constexpr int part_size(int nodes) { return nodes < 32768 ? 1024 : 2048; }
 
+/// Meshes from here on write {v, Sigma_J} and {P|H} past the caches. Measured (cube, two runs): 13 % less time at 29,791 nodes, 5 % at 4,913, none at 2,197, 5 % more at 729.
+inline constexpr int streaming_nodes = 4096;
+
+/// Edges that the arrays hold beyond the last one: prefetching reads ahead.
+inline constexpr std::size_t edge_padding = 512;
+
 struct Order {
   int nodes = 0;                            // of the mesh
   int rows = 0;                             // nodes and padding
@@ -28,7 +34,7 @@ struct Order {
   Aligned<std::int32_t> corner_b, corner_c, corner_load;
   Aligned<double> corner_C[3];
   std::vector<int> corner_face;             // corner -> index into Mesh::faces
-  int most_nodes = 0, most_rows = 0;        // largest part: nodes, rows of its edge buffer
+  int most_nodes = 0, most_edges = 0, most_corners = 0;  // of a part
 
   EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, {}, rho_cp.data(), rho_cs.data()}; }
   CornerArrays corners() const { return {corner_b.data(), corner_c.data(), {corner_C[0].data(), corner_C[1].data(), corner_C[2].data()}, corner_load.data()}; }

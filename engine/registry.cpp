@@ -128,7 +128,7 @@ void find_material(PartFunctions& f, Formulation formulation, bool current_areas
             f.strain_energy = strain_energy_part<law, volumetric, isochoric, form>;
             if (!current_areas) return;
             f.stress = nullptr;
-            if constexpr (form == Formulation::pFJ && law != Law::linear_elastic) f.stress = cauchy_stress_part<law, volumetric, isochoric>;
+            if constexpr (form == Formulation::pFJ && law != Law::linear_elastic) f.stress = stress_part<law, volumetric, isochoric, form, Areas::current>;
           }
         });
       });

@@ -114,12 +114,12 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   s.mixture = make_mixture(scene, materials, s.order, s.state.step_length);
   s.functions = find_part_functions(scene.physics, scene.material, s.mixture.empty() ? Materials::one : Materials::several);
   s.coefficients = coefficients_of(scene);
+  s.coefficients.streams = s.order.nodes >= streaming_nodes;
   s.manufactured = make_manufactured(scene, mesh, s.order);
   s.current = make_current_geometry(scene.physics.description, mesh, s.order);
   s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
   s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
-  s.scratch.resize(static_cast<std::size_t>(s.threads));
-  for (auto& scratch : s.scratch) scratch.assign(std::max(static_cast<std::size_t>(8 * s.order.most_rows + 16 * s.order.most_nodes) + 16, mixture_scratch(s.order.most_nodes)), 0.0);
+  s.scratch.assign(static_cast<std::size_t>(s.threads), Aligned<double>(std::max(part_scratch(s.order), mixture_scratch(s.order.most_nodes)), 0.0));
   set_initial_state(s);
   constrain_start(s);
   const Rows rows = start_rows(s, s.state.now);

@@ -17,7 +17,6 @@ template <bool corrected, Materials materials>
 NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
   constexpr int width = corrected ? 8 : 4;
   const double* buffer = scratch.edge;
-  const double* corner_buffer = scratch.edge + width * static_cast<std::ptrdiff_t>(part.edge_end - part.edge_begin);
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
@@ -37,7 +36,7 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
       f = f - load4(r);
       if constexpr (corrected) add_q(r, -edges.C[0][e], -edges.C[1][e], -edges.C[2][e]);
     }
-    for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) f = f + load4(corner_buffer + width * (g - part.corner_begin));
+    for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) f = f + load4(scratch.corner + 4 * (g - part.corner_begin));
     store4(scratch.force + 4 * (n - part.node_begin), f);
     if constexpr (corrected) {
       double* dG = scratch.dG + 12 * (n - part.node_begin);

@@ -171,14 +171,36 @@ NANSON_INLINE void load_transposed(const double* p, std::ptrdiff_t stride, Vec8&
   c3 = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
 }
 
-/// The inverse of load_transposed.
-NANSON_INLINE void store_transposed(double* p, std::ptrdiff_t stride, Vec8 c0, Vec8 c1, Vec8 c2, Vec8 c3) {
+/// Eight rows {c0, c1, c2, c3} from lanes.
+NANSON_INLINE void rows_of(Vec8 c0, Vec8 c1, Vec8 c2, Vec8 c3, Vec4 (&row)[8]) {
   const Vec8 t0 = __builtin_shufflevector(c0, c1, 0, 8, 2, 10, 4, 12, 6, 14), t1 = __builtin_shufflevector(c0, c1, 1, 9, 3, 11, 5, 13, 7, 15);
   const Vec8 t2 = __builtin_shufflevector(c2, c3, 0, 8, 2, 10, 4, 12, 6, 14), t3 = __builtin_shufflevector(c2, c3, 1, 9, 3, 11, 5, 13, 7, 15);
   const Vec8 z0 = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13), z1 = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
   const Vec8 z2 = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15), z3 = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
-  store4(p, low(z0)), store4(p + stride, low(z1)), store4(p + 2 * stride, low(z2)), store4(p + 3 * stride, low(z3));
-  store4(p + 4 * stride, high(z0)), store4(p + 5 * stride, high(z1)), store4(p + 6 * stride, high(z2)), store4(p + 7 * stride, high(z3));
+  row[0] = low(z0), row[1] = low(z1), row[2] = low(z2), row[3] = low(z3), row[4] = high(z0), row[5] = high(z1), row[6] = high(z2), row[7] = high(z3);
+}
+
+/// The inverse of load_transposed.
+NANSON_INLINE void store_transposed(double* p, std::ptrdiff_t stride, Vec8 c0, Vec8 c1, Vec8 c2, Vec8 c3) {
+  Vec4 row[8];
+  rows_of(c0, c1, c2, c3, row);
+  for (int i = 0; i < 8; ++i) store4(p + i * stride, row[i]);
+}
+
+/// Stores a cache line past the caches: it is not read first, and nothing else is thrown out for it. `finish_streams` before another thread reads.
+NANSON_INLINE void stream8(double* p, Vec8 x) {
+#if defined(__AVX512F__)
+  _mm512_stream_pd(p, x);
+#elif defined(__AVX__)
+  _mm256_stream_pd(p, low(x)), _mm256_stream_pd(p + 4, high(x));
+#else
+  store8(p, x);
+#endif
+}
+NANSON_INLINE void finish_streams() {
+#if defined(__AVX__)
+  _mm_sfence();
+#endif
 }
 
 NANSON_INLINE bool any(Mask8 m) { return (m[0] | m[1] | m[2] | m[3] | m[4] | m[5] | m[6] | m[7]) != 0; }

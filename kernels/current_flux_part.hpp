@@ -33,7 +33,7 @@ NANSON_INLINE void current_corner_forces(const Part& part, const CornerArrays& c
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {
       const Vec4 t = traction(a, g), load = corners.load[g] >= 0 ? load4(rows.loads + 4 * corners.load[g]) : Vec4{};
       const Vec4 d = (t - traction(corners.b[g], corners.at_b[g])) + (t - traction(corners.c[g], corners.at_c[g]));
-      store4(buffer + 4 * ((part.edge_end - part.edge_begin) + (g - part.corner_begin)), fma(d, broadcast4(0.125), load));
+      store4(buffer + 4 * (g - part.corner_begin), fma(d, broadcast4(0.125), load));
     }
 }
 
@@ -41,7 +41,7 @@ template <Reconstruction reconstruction, UpwindMetric metric>
 void current_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                        const Scratch& scratch) {
   edge_fluxes<reconstruction, FluxCorrection::none, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge);
-  current_corner_forces(part, corners, lists, rows, scratch.edge);
+  current_corner_forces(part, corners, lists, rows, scratch.corner);
   cell_motion(part, edges, corners, lists, rows);
 }
 

@@ -81,6 +81,11 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
   }
 }
 
+/// Asks for the states of a node that the update reads after the edge loop.
+NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows) {
+  for (const double* U : {rows.U_old, rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
+}
+
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`.
 template <FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
 NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, double* flux) {
@@ -114,22 +119,19 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho
 template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas = Areas::undeformed,
           Materials materials = Materials::one>
 NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
-  constexpr int width = correction != FluxCorrection::none ? 8 : 4;
+  constexpr int width = correction != FluxCorrection::none ? 8 : 4, nodes_ahead = 40;
   EdgeBlock block{};
-  alignas(64) double last[width * edge_block];  // the last block's rows: lanes beyond the part's edges must not reach the buffer
   for (int begin = part.edge_begin; begin < part.edge_end; begin += edge_block) {
     const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
-    double* out = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
-    double* flux = count < edge_block ? last : out;
+    double* flux = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
     gather_edges<reconstruction, correction, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
     for (int at = 0; at < count; at += 8) {
+      prefetch_U(edges.a[begin + at] + nodes_ahead, rows);
       const Vec8 size = edge_sizes(edges, begin + at);
       if constexpr (materials == Materials::several)
         finish_edges<correction, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at), load8_anywhere(edges.rho_cs + begin + at), flux + width * at);
       else finish_edges<correction, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, flux + width * at);
     }
-    if (count < edge_block)
-      for (int i = 0; i < width * count; i += 4) store4(out + i, load4(last + i));
   }
 }
 
@@ -161,7 +163,7 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
 template <FluxCorrection correction>
 NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
   constexpr bool full = correction == FluxCorrection::full;
-  constexpr int width = correction != FluxCorrection::none ? 8 : 4, stride = full ? row::Q : row::PH, column = full ? 4 : 8;
+  constexpr int stride = full ? row::Q : row::PH, column = full ? 4 : 8;
   const double* stress = full ? rows.Q : rows.PH;
   if (part.corner_begin == part.corner_end) return;
   for (int a = part.node_begin; a < part.node_end; ++a)
@@ -173,9 +175,7 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
           const Vec4 d = (Pa - load4(stress + stride * corners.b[g] + column * I)) + (Pa - load4(stress + stride * corners.c[g] + column * I));
           f = fma(d, broadcast4(0.125 * corners.C[I][g]), f);
         }
-      double* out = buffer + width * ((part.edge_end - part.edge_begin) + (g - part.corner_begin));
-      store4(out, f);
-      if constexpr (width == 8) store4(out + 4, Vec4{});
+      store4(buffer + 4 * (g - part.corner_begin), f);
     }
 }
 
@@ -183,7 +183,7 @@ template <Reconstruction reconstruction, FluxCorrection correction, bool evolves
 void edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                     const Scratch& scratch) {
   edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
-  corner_forces<correction>(part, corners, lists, rows, k, scratch.edge);
+  corner_forces<correction>(part, corners, lists, rows, k, scratch.corner);
 }
 
 }  // namespace nanson

@@ -16,10 +16,14 @@ NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& co
   for (std::int32_t k = lists.corner[n]; k < lists.corner[n + 1]; ++k) corner(corners.b[k], corners.c[k], corners.C[0][k], corners.C[1][k], corners.C[2][k]);
 }
 
-/// Asks for the rows of the other ends of the node's out-edges, some edges in advance (the array is padded): those of in-edges are the part's own.
+/// Asks for what a node will read some nodes later: the rows of the other ends of its out-edges (those of in-edges are the part's own), and its edges. The
+/// processor's own prefetch loses the sequence of so many arrays as soon as rows are gathered between them. The arrays are padded.
 NANSON_INLINE void prefetch_W(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
-  constexpr int ahead = 60;
+  constexpr int ahead = 200, edges_ahead = 256;
   for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.W + row::W * edges.b[e + ahead]);
+  const std::ptrdiff_t e = lists.out[n] + edges_ahead;
+  for (const double* C : edges.C) __builtin_prefetch(C + e), __builtin_prefetch(C + e + 8);
+  __builtin_prefetch(edges.b + e + ahead), __builtin_prefetch(lists.in_edges + lists.in[n] + edges_ahead);
 }
 NANSON_INLINE void prefetch_X(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
   constexpr int ahead = 60;

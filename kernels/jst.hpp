@@ -23,7 +23,7 @@ void edge_flux_jst_part(const Part& part, const EdgeArrays& edges, const CornerA
       store4(scratch.edge + 4 * (e - part.edge_begin), fma((load4(rows.L + row::L * b) - La) * broadcast4(edge_size(edges, e)), scale, t));
     }
   }
-  corner_forces<FluxCorrection::none>(part, corners, lists, rows, k, scratch.edge);
+  corner_forces<FluxCorrection::none>(part, corners, lists, rows, k, scratch.corner);
 }
 
 }  // namespace nanson

@@ -114,13 +114,15 @@ struct Coefficients {
   bool sweeps_J = false;            // W is {v, J} in place of {v, Sigma_J} (jst)
   double g[3] = {};                 // [m/s^2] body force
   double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
+  bool streams = false;             // the mesh is larger than the caches: rows that only other sweeps read are written past them
   bool commits = false;             // the stress of this stage is that of the new state: what flowed plastically is kept
   const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step
 };
 
 /// Part-local buffers of one thread.
 struct Scratch {
-  double* edge;                 // row of 4 {flux, D^J} an edge or corner, of 8 with a flux correction: {q, 0} too
+  double* edge;                 // row of 4 {flux, D^J} an edge, of 8 with a flux correction: {q, 0} too; eight rows more are overwritten
+  double* corner;               // row of 4 {force, 0} a boundary corner
   double* force;                // row of 4 {force, J source} a node
   double* dG;                   // row of 12 a node, flux correction only
 };
@@ -155,11 +157,8 @@ template <Formulation, bool corrected, Areas = Areas::undeformed, Materials = Ma
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
-template <Law, Volumetric, Isochoric, Formulation>
+template <Law, Volumetric, Isochoric, Formulation, Areas = Areas::undeformed>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
-
-template <Law, Volumetric, Isochoric>
-PartReport cauchy_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);

@@ -3,6 +3,7 @@
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
 #include "kernels/part.hpp"
+#include "kernels/stress_rows.hpp"
 
 namespace nanson {
 
@@ -28,16 +29,15 @@ PartReport projected_stress_part(const Part& part, const Rows& rows, const Coeff
     load_transposed(U, row::U, v[0], v[1], v[2], p);
     for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
     const Stress<Vec8> s = IsochoricMaterial<law>::stress(F, F, p, m);
-    const Vec8 zero{};
-    store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], p);
-    for (int I = 0; I < 3; ++I) {
-      store_transposed(rows.PH_new + row::PH * n + 8 * I, row::PH, fma(p, s.H[0][I], s.P[0][I]), fma(p, s.H[1][I], s.P[1][I]), fma(p, s.H[2][I], s.P[2][I]), zero);
-      store_transposed(rows.PH_new + row::PH * n + 8 * I + 4, row::PH, s.H[0][I], s.H[1][I], s.H[2][I], zero);
-    }
+    Tensor<Vec8> P;
+    for (int i = 0; i < 3; ++i)
+      for (int I = 0; I < 3; ++I) P[i][I] = fma(p, s.H[i][I], s.P[i][I]);
+    store_rows(rows, n, v, p, P, s.H, k.streams);
     fastest = larger(k.material.cs / load8(step_length + n), fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     broken = broken | ~((s.det_F > 0.0) & (size - size == 0.0) & (p - p == 0.0));
   }
+  if (k.streams) finish_streams();
   return {largest(fastest), any(broken)};
 }
 

@@ -6,6 +6,7 @@
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
 #include "kernels/part.hpp"
+#include "kernels/stress_rows.hpp"
 
 namespace nanson {
 
@@ -21,9 +22,18 @@ NANSON_INLINE void store_plastic(double* p, const PlasticState<Vec8>& z) {
   store_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p), store_transposed(p + 4, row::plastic, C[3], C[4], C[5], Vec8{});
 }
 
+/// sigma = P F^T / J: what fluxes with current areas take in place of H (method, section 8). [Pa]
+NANSON_INLINE Tensor<Vec8> cauchy_stress(const Tensor<Vec8>& P, const Tensor<Vec8>& F, Vec8 J) {
+  const Vec8 inverse_J = 1.0 / J;
+  Tensor<Vec8> sigma;
+  for (int j = 0; j < 3; ++j)
+    for (int i = 0; i < 3; ++i) sigma[i][j] = fma(P[i][2], F[j][2], fma(P[i][1], F[j][1], P[i][0] * F[j][0])) * inverse_J;
+  return sigma;
+}
+
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, bool commits>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, bool commits, Areas areas>
 PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   using Law_ = Material<law, volumetric, isochoric, formulation>;
   const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
@@ -55,12 +65,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
       s = Law_::stress(F, H, J, k.material);
     }
 
-    const Vec8 zero{};
-    store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J);
-    for (int I = 0; I < 3; ++I) {
-      store_transposed(rows.PH_new + row::PH * n + 8 * I, row::PH, s.P[0][I], s.P[1][I], s.P[2][I], zero);
-      store_transposed(rows.PH_new + row::PH * n + 8 * I + 4, row::PH, s.H[0][I], s.H[1][I], s.H[2][I], zero);
-    }
+    store_rows(rows, n, v, !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J, s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);
     if constexpr (formulation != Formulation::pF && law != Law::linear_elastic)
       c = larger(c, s.d2U * inverse_rho_cp * (k.deformed_metric ? root(s.H2) : s.H2));
@@ -71,16 +76,17 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     if constexpr (formulation != Formulation::pF) sound = sound & (J > 0.0);
     broken = broken | ~sound;
   }
+  if (k.streams) finish_streams();
   double work = 0;
   for (int i = 0; i < 8; ++i) work += plastic_work[i];
   return {largest(fastest), any(broken), work};
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas>
 PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   if constexpr (law == Law::hencky_j2)
-    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, true>(part, rows, k, step_length);
-  return stress_sweep<law, volumetric, isochoric, formulation, false>(part, rows, k, step_length);
+    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, true, areas>(part, rows, k, step_length);
+  return stress_sweep<law, volumetric, isochoric, formulation, false, areas>(part, rows, k, step_length);
 }
 
 template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>

@@ -186,9 +186,7 @@ inline Rates rates(Simulation& s) {
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  double* p = s.scratch[0].data();
-  const std::ptrdiff_t edge = 8 * static_cast<std::ptrdiff_t>(s.order.most_rows), force = 4 * static_cast<std::ptrdiff_t>(s.order.most_nodes);
-  const Scratch scratch{p, p + edge, p + edge + force};
+  const Scratch scratch = scratch_of(s, 0);
   for (const Part& part : s.order.parts) s.functions.gradient(part, edges, corners, lists, rows, k);
   for (const Part& part : s.order.parts) {
     s.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);

@@ -72,7 +72,8 @@ TEST(Determinism, FluxOfACutEdgeIsBitwiseOppositeInItsTwoParts) {
     std::map<std::pair<int, int>, std::array<double, 4>> flux;
     int pairs = 0, unequal = 0;
     for (const Part& part : s.order.parts) {
-      const Scratch scratch{s.scratch[0].data(), nullptr, nullptr};
+      double* edge = s.scratch[0].data();
+      const Scratch scratch{edge, edge + 8 * (s.order.most_edges + 8), nullptr, nullptr};
       s.functions.edge_flux(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients, scratch);
       for (int e = part.edge_begin; e < part.edge_end; ++e) {
         const double* f = scratch.edge + width * (e - part.edge_begin);

@@ -101,8 +101,8 @@ struct TwoParts {
   /// Flux as both parts see it; lanes 4 to 7 are q of a flux correction.
   void run(const Combination& c) {
     for (int p = 0; p < 2; ++p) {
-      alignas(64) double edge[8] = {};
-      functions(c).edge_flux(part[p], edges(), CornerArrays{}, lists(), nodal(), k, {edge, nullptr, nullptr});
+      alignas(64) double edge[8 * 9] = {};
+      functions(c).edge_flux(part[p], edges(), CornerArrays{}, lists(), nodal(), k, {edge, nullptr, nullptr, nullptr});
       for (int i = 0; i < 8; ++i) flux[p][i] = edge[i];
     }
   }

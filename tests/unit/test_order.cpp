@@ -40,7 +40,7 @@ TEST(Order, PartsTileRowsEdgesAndCorners) {
   const Order& o = many_parts().order;
   ASSERT_EQ(o.parts.size(), 3u);
   EXPECT_FALSE(o.metis_failed);
-  int node = 0, edge = 0, corner = 0, most_nodes = 0, most_rows = 0;
+  int node = 0, edge = 0, corner = 0, most_nodes = 0, most_edges = 0, most_corners = 0;
   for (const Part& p : o.parts) {
     EXPECT_EQ(p.node_begin, node);
     EXPECT_EQ(p.edge_begin, edge);
@@ -49,13 +49,14 @@ TEST(Order, PartsTileRowsEdgesAndCorners) {
     EXPECT_EQ(p.node_end % 8, 0);
     node = p.node_end, edge = p.edge_end, corner = p.corner_end;
     most_nodes = std::max(most_nodes, p.node_end - p.node_begin);
-    most_rows = std::max(most_rows, p.edge_end - p.edge_begin + p.corner_end - p.corner_begin);
+    most_edges = std::max(most_edges, p.edge_end - p.edge_begin), most_corners = std::max(most_corners, p.corner_end - p.corner_begin);
   }
   EXPECT_EQ(node, o.rows);
   EXPECT_EQ(edge, many_parts().edges());
   EXPECT_EQ(corner, static_cast<int>(many_parts().dual.corners.size()));
   EXPECT_EQ(o.most_nodes, most_nodes);
-  EXPECT_EQ(o.most_rows, most_rows);
+  EXPECT_EQ(o.most_edges, most_edges);
+  EXPECT_EQ(o.most_corners, most_corners);
 }
 
 TEST(Order, PartsAreBalanced) {

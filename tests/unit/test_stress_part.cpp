@@ -92,6 +92,18 @@ TYPED_TEST(StressPart, WritesVelocitySigmaJAndTheColumnsOfPAndH) {
   }
 }
 
+TYPED_TEST(StressPart, WritesTheSameRowsPastTheCaches) {
+  Random random(4);
+  for (int n = 0; n < nodes; ++n) this->set(n, row_state<TypeParam>(random), {1.0 + n, 2.0 + n, 3.0 + n});
+  this->run();
+  const Aligned<double> W = this->W, PH = this->PH;
+  std::fill(this->W.begin(), this->W.end(), NaN), std::fill(this->PH.begin(), this->PH.end(), NaN);
+  this->k.streams = true;
+  this->run();
+  EXPECT_EQ(this->W, W);
+  EXPECT_EQ(this->PH, PH);
+}
+
 TYPED_TEST(StressPart, FastestIsTheLargestSpeedOverLength) {
   Random random(2);
   double expected = 0;
