@@ -141,7 +141,7 @@ void read_names(Table& t, std::string_view key, std::vector<std::string>& names,
   else if (!t.read(key, read)) return;
   names.clear();
   for (const Word& w : read) {
-    if (what == "quantity" && (w.text.starts_with("probes.") || w.text.starts_with("sweeps."))) {}  // known to the runs only
+    if (what == "quantity" && (w.text.starts_with("probes.") || w.text.starts_with("sweeps.") || w.text.starts_with("setup."))) {}  // known to the runs only
     else if (std::find(allowed.begin(), allowed.end(), w.text) == allowed.end()) report(t.diagnostics(), w, unknown_word(what, w.text, allowed));
     if (places) places->emplace(w.text, fmt::format("{}: {}", where(t.diagnostics(), w.place), w.path));
     names.push_back(w.text);

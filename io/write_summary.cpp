@@ -60,8 +60,8 @@ toml::table probes_table(const std::map<std::string, std::map<std::string, std::
   return table;
 }
 
-/// By name, so that a study can ask for sweeps.NAME; a sweep that is listed twice counts once, with the sum.
-toml::table sweeps_table(const std::vector<SweepTime>& sweeps) {
+/// By name, so that a study can ask for sweeps.NAME and setup.NAME; one that is listed twice counts once, with the sum.
+toml::table times_table(const std::vector<SweepTime>& sweeps) {
   std::map<std::string, double> seconds;
   for (const auto& sweep : sweeps) seconds[sweep.sweep] += sweep.seconds;
   toml::table table;
@@ -109,7 +109,7 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
       {"volume", number(s.volume)}, {"keep_angular_momentum", s.keep_angular_momentum},
       {"angular_momentum_drift", number(s.angular_momentum_drift)},
       {"linear_momentum_drift", number(s.linear_momentum_drift)}, {"min_detF", number(s.min_detF)}, {"max_detF", number(s.max_detF)},
-      {"probes", probes_table(s.probes)}, {"sweeps", sweeps_table(s.sweeps)}, {"provenance", provenance_table(from)}};
+      {"probes", probes_table(s.probes)}, {"setup", times_table(s.setup)}, {"sweeps", times_table(s.sweeps)}, {"provenance", provenance_table(from)}};
   table.insert("checkerboard", number(s.checkerboard));
   table.insert("projection", projection_table(s.projection));
   table.insert("throughput", throughput_table(s.throughput));

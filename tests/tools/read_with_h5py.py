@@ -82,7 +82,7 @@ def check_summary(path, attributes):
     assert summary["energy"] == {"initial": 2, "kinetic": 0, "strain": 0, "external_work": 0.5, "dissipated": None, "angular_momentum_work": None, "closure": None, "lost_at_start": None}
     assert summary["errors"] == {"p1_L2": 1 / 3, "P11_L2": None}
     assert summary["probes"] == {"tip": {"x": [1, 2, 3], "pressure": [-0.5]}}
-    assert summary["sweeps"] == {"edge_flux": 0.75} and summary["fields_left_out"] == ["H"]
+    assert summary["setup"] == {"metis": 0.25} and summary["sweeps"] == {"edge_flux": 0.75} and summary["fields_left_out"] == ["H"]
     assert summary["provenance"] == {key: attributes[key] for key in ("version", "commit", "compiler", "flags", "cpu", "host")}
 
 
