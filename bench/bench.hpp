@@ -52,6 +52,7 @@ void register_bandwidth();
 void register_sweeps();
 void register_steps();
 void register_variants();
+void register_step_options();
 void register_setup();
 
 }  // namespace nanson

@@ -178,6 +178,7 @@ int main(int argc, char** argv) {
   register_sweeps();
   register_steps();
   register_variants();
+  register_step_options();
   register_setup();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();

@@ -100,11 +100,11 @@ void open_ledger(Simulation& s) {
 }
 
 /// Boundary, rows and everything else that the physics carries.
-void allocate(Simulation& s, const Dual& dual, const NodeMaterials& materials) {
+void allocate(Simulation& s, Dual dual, const NodeMaterials& materials) {
   const Scene& scene = *s.scene;
   const Mesh& mesh = *s.mesh;
   s.boundary = make_boundary(scene, mesh, s.order);
-  s.state = make_state(scene, mesh, dual, s.order, s.boundary);
+  s.state = make_state(scene, mesh, std::move(dual), s.order, s.boundary);
   s.mixture = make_mixture(scene, materials, s.order, s.state.step_length);
   s.functions = find_part_functions(scene.physics, scene.material, s.mixture.empty() ? Materials::one : Materials::several);
   s.coefficients = coefficients_of(scene);
@@ -139,7 +139,7 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   });
   s.setup.add("order", -s.order.metis_s), s.setup.add("metis", s.order.metis_s);
   s.volume = dual.volume, s.edges = static_cast<long>(dual.edges.size());
-  s.setup.time("state", [&] { allocate(s, dual, materials); });
+  s.setup.time("state", [&] { allocate(s, std::move(dual), materials); });
   s.setup.time("initial", [&] { start(s); });
   return s;
 }

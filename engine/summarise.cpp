@@ -74,6 +74,7 @@ std::string closing_line(const Summary& s) {
   if (s.throughput) line += fmt::format(", {:.1f} GF/s, {:.1f} GB/s", s.throughput->GF_s, s.throughput->GB_s);
   if (s.throughput && s.throughput->bandwidth_share)
     line += fmt::format(" ({:.0f} % of the update bandwidth)", 100 * *s.throughput->bandwidth_share);
+  if (s.peak_bytes) line += fmt::format(", at most {:.4g} MB resident ({:.2f} kB a node)", 1e-6 * *s.peak_bytes, 1e-3 * *s.peak_bytes / static_cast<double>(s.nodes));
   if (s.energy.closure) line += fmt::format(", energy closure {:.1e}", *s.energy.closure);
   return line;
 }

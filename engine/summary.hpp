@@ -52,7 +52,8 @@ struct Summary {
   double wall_s = 0, cpu_s = 0;                                   // [s] time loop only
   double setup_s = 0;                                             // [s] before it, the mesh included: the sum of `setup`
   double ns_per_node_step = 0;
-  double bytes_per_node = 0;
+  double bytes_per_node = 0;                                      // that a step reads or writes
+  std::optional<double> peak_bytes;                               // resident at most, of the whole process
   std::vector<std::string> fields_left_out;
   std::string state_hash;
   EnergySummary energy;
@@ -60,7 +61,7 @@ struct Summary {
   bool keep_angular_momentum = false;
   std::optional<double> angular_momentum_drift;                   // [-] ssp_rk3: only without supports and loads
   double linear_momentum_drift = 0;                               // [-]
-  double min_detF = 0, max_detF = 0;
+  double min_detF = 0, max_detF = 0;                              // [-] of the last state
   std::map<std::string, double> errors;                           // empty without an exact solution
   std::map<std::string, std::map<std::string, std::vector<double>>> probes;   // last values
   std::vector<SweepTime> setup, sweeps;

@@ -7,6 +7,7 @@
 #include "engine/monitor.hpp"
 #include "engine/summarise.hpp"
 #include "engine/throughput.hpp"
+#include "io/peak_memory.hpp"
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
 #include "io/results_folder.hpp"
@@ -93,9 +94,10 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   std::string reason;
   const std::string status = run(s, observer, reason);
   Summary summary = summarise(s, probes, status, reason);
+  summary.peak_bytes = peak_bytes();               // before the bandwidth is measured, which takes 128 MB
   summary.throughput = throughput(s, 0);
   write_summary(folder.path() / "summary.json", summary, from);
-  if (!options.quiet && summary.throughput) {      // again with the bandwidth, whose measurement takes 128 MB: nothing is lost if it fails
+  if (!options.quiet && summary.throughput) {      // again with the bandwidth: nothing is lost if its measurement fails
     constexpr std::size_t beyond_L3 = 8 << 20;     // doubles: 64 MB an array
     summary.throughput = throughput(s, update_bandwidth(s.threads, beyond_L3, 3));
     write_summary(folder.path() / "summary.json", summary, from);

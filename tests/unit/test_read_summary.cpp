@@ -46,7 +46,7 @@ TEST(ReadSummary, NumberKeysAreThoseOfTheFile) {
   s.projection.emplace();
   s.throughput = Throughput{1, 1, 1, 1, 1, 1};
   s.energy.closure = s.energy.external_work = s.energy.dissipated = s.energy.angular_momentum_work = s.energy.lost_at_start = 0;
-  s.angular_momentum_drift = 0;
+  s.angular_momentum_drift = 0, s.nodes = 1, s.peak_bytes = 0;
   for (const char* name : error_names) s.errors[name] = 0;
   std::vector<std::string> written;
   const auto read = parse_summary(summary_json(s, {}));
