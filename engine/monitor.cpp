@@ -122,10 +122,20 @@ std::optional<double> angular_momentum_drift(Simulation& s) {
 
 namespace {
 
-/// Both nodes see one material only, the same: across an interface the pressure jumps by right.
-bool same_material(const Mixture& m, int a, int b) {
-  const std::size_t group = static_cast<std::size_t>(m.group[static_cast<std::size_t>(a)]);
-  return m.group[static_cast<std::size_t>(b)] == static_cast<int>(group) && m.groups[group].size() == 1;
+/// 1 at rows whose neighbours all see the same one material: elsewhere the pressure jumps by right, and the Green-Gauss gradient takes the jump for its own.
+/// Empty with one material.
+std::vector<char> inside_one_material(const Simulation& s) {
+  if (s.mixture.empty()) return {};
+  std::vector<char> inside(static_cast<std::size_t>(s.order.rows), 1);
+  const auto edges = s.order.edges();
+  const auto group = [&](int n) { return s.mixture.group[static_cast<std::size_t>(n)]; };
+  for (const Part& part : s.order.parts)
+    for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
+      const int a = edges.a[e], b = edges.b[e];
+      if (group(a) == group(b) && s.mixture.groups[static_cast<std::size_t>(group(a))].size() == 1) continue;
+      inside[static_cast<std::size_t>(a)] = inside[static_cast<std::size_t>(b)] = 0;
+    }
+  return inside;
 }
 
 }  // namespace
@@ -138,14 +148,15 @@ double checkerboard(Simulation& s) {
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
   for_parts(s, [&](int p, Scratch) { gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists, rows, s.coefficients); });
+  const std::vector<char> inside = inside_one_material(s);
+  const auto counts = [&](int n) { return inside.empty() || inside[static_cast<std::size_t>(n)]; };
   const auto sum = [&](bool left_over) {
     return sum_over_parts(s, [&](int p) {
       const Part& part = s.order.parts[static_cast<std::size_t>(p)];
       double part_sum = 0;
       for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
         const int a = edges.a[e], b = edges.b[e];
-        if (b < a) continue;  // the other part's copy counts
-        if (!s.mixture.empty() && !same_material(s.mixture, a, b)) continue;
+        if (b < a || !counts(a) || !counts(b)) continue;  // b < a: the other part's copy counts
         double d = rows.W[row::W * b + 3] - rows.W[row::W * a + 3], length2 = 0;
         for (int k = 0; k < 3; ++k) {
           const double D = rows.X[row::X * b + k] - rows.X[row::X * a + k];
@@ -158,7 +169,8 @@ double checkerboard(Simulation& s) {
     });
   };
   const double all = sum(false);
-  return all > 0 ? std::sqrt(sum(true) / all) : 0;
+  if (all > 0) return std::sqrt(sum(true) / all);
+  return inside.empty() ? 0 : std::nan("");
 }
 
 namespace {
