@@ -15,7 +15,7 @@ inline constexpr double same = 1e-11;      // largest relative difference to the
 
 struct BenchOptions {
   int cells = full_cells;
-  bool keep = false;
+  bool keep = false, large = false;
 };
 BenchOptions& options();
 
@@ -30,6 +30,9 @@ double update_bandwidth(int threads);
 void set_columns(benchmark::State& state, double seconds, double nodes, const Work& work, int threads);
 
 Mesh box_mesh(const MeshSpec& spec);
+
+/// The standing wave in a cube of n cells a side.
+Scene cube(int n);
 
 /// The twisting column of the step benches, 26 of 48 cells across.
 Scene column();
@@ -49,5 +52,7 @@ void register_bandwidth();
 void register_sweeps();
 void register_steps();
 void register_variants();
+void register_step_options();
+void register_setup();
 
 }  // namespace nanson

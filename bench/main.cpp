@@ -1,6 +1,7 @@
 // The benches: own flags, the table of ratios, and kept results.
-//   nanson_bench [--cells=N] [--keep] [flags of Google Benchmark]
+//   nanson_bench [--cells=N] [--large] [--keep] [flags of Google Benchmark]
 // --cells   cells a side of the cube, 48 unless said; the other scenes and the bandwidth's arrays follow
+// --large   set-up of 8 times the cells too (912,673 nodes)
 // --keep    writes bench/results/<cpu>-<date>.json below the current folder; later runs on such a CPU are compared with it
 #include <fmt/format.h>
 #include <time.h>
@@ -145,6 +146,7 @@ std::vector<std::string> own_flags(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string flag = argv[i];
     if (flag == "--keep") options().keep = true;
+    else if (flag == "--large") options().large = true;
     else if (flag.rfind("--cells=", 0) == 0) options().cells = std::max(2, std::atoi(flag.c_str() + std::strlen("--cells=")));
     else rest.push_back(flag);
   }
@@ -176,6 +178,8 @@ int main(int argc, char** argv) {
   register_sweeps();
   register_steps();
   register_variants();
+  register_step_options();
+  register_setup();
   benchmark::RunSpecifiedBenchmarks();
   benchmark::Shutdown();
   print_table(kept);

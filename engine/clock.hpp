@@ -20,18 +20,25 @@ inline double cpu_seconds() {
 
 struct Clock {
   std::vector<SweepTime> sweeps;
-  /// Runs the sweep and adds its wall time under the label.
-  template <class Sweep>
-  void time(std::string_view label, Sweep sweep) {
-    const double start = wall_seconds();
-    sweep();
-    const double seconds = wall_seconds() - start;
+  void add(std::string_view label, double seconds) {
     for (SweepTime& s : sweeps)
       if (s.sweep == label) {
         s.seconds += seconds;
         return;
       }
     sweeps.push_back({std::string(label), seconds});
+  }
+  double total() const {
+    double seconds = 0;
+    for (const SweepTime& s : sweeps) seconds += s.seconds;
+    return seconds;
+  }
+  /// Runs the sweep and adds its wall time under the label.
+  template <class Sweep>
+  void time(std::string_view label, Sweep sweep) {
+    const double start = wall_seconds();
+    sweep();
+    add(label, wall_seconds() - start);
   }
 };
 

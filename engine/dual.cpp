@@ -1,4 +1,4 @@
-// Builds the median dual by a counting sort of the tets' edges, and checks its identities.
+// Builds the median dual and checks its identities. The edge list comes from a counting sort of the tets' edges by their lower node; the handful of each node is then sorted.
 #include "engine/dual.hpp"
 
 #include <algorithm>
@@ -20,44 +20,45 @@ Vec3 area_in_tet(const Mesh& mesh, const std::array<int, 4>& t, const int (&e)[4
   return {C[0] / 24, C[1] / 24, C[2] / 24};
 }
 
-struct TetEdge {
-  int b;
-  Vec3 C;
-};
-
-/// The contributions of all tets, bucketed by the lower node.
-std::vector<TetEdge> bucketed(const Mesh& mesh, std::vector<int>& begin) {
-  begin.assign(mesh.X.size() + 1, 0);
+/// The edges without their areas, sorted by (a, b), and the first of every node.
+void find_edges(const Mesh& mesh, Dual& dual) {
+  const std::size_t nodes = mesh.X.size();
+  std::vector<int> begin(nodes + 1, 0);
   for (const auto& t : mesh.tets)
     for (const auto& e : tet_edges) ++begin[std::min(t[e[0]], t[e[1]]) + 1];
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  std::vector<TetEdge> all(static_cast<std::size_t>(begin.back()));
-  std::vector<int> next(begin.begin(), begin.end() - 1);
+  std::vector<int> upper(static_cast<std::size_t>(begin.back())), next(begin.begin(), begin.end() - 1);
   for (const auto& t : mesh.tets)
-    for (const auto& e : tet_edges) {
-      Vec3 C = area_in_tet(mesh, t, e);
-      int a = t[e[0]], b = t[e[1]];
-      if (a > b) std::swap(a, b), C = {-C[0], -C[1], -C[2]};
-      all[static_cast<std::size_t>(next[a]++)] = {b, C};
-    }
-  return all;
+    for (const auto& e : tet_edges) upper[static_cast<std::size_t>(next[std::min(t[e[0]], t[e[1]])]++)] = std::max(t[e[0]], t[e[1]]);
+  dual.first.assign(nodes + 1, 0);
+  for (std::size_t a = 0; a < nodes; ++a) {
+    const auto from = upper.begin() + begin[a], to = upper.begin() + begin[a + 1];
+    std::sort(from, to);
+    next[a] = static_cast<int>(std::unique(from, to) - from);
+    dual.first[a + 1] = dual.first[a] + next[a];
+  }
+  dual.edges.reserve(static_cast<std::size_t>(dual.first[nodes]));
+  for (std::size_t a = 0; a < nodes; ++a)
+    for (int i = 0; i < next[a]; ++i) dual.edges.push_back({static_cast<int>(a), upper[static_cast<std::size_t>(begin[a] + i)], {}});
+}
+
+std::size_t edge_of(const Dual& dual, int a, int b) {
+  const auto before = [](const DualEdge& e, int node) { return e.b < node; };
+  return static_cast<std::size_t>(std::lower_bound(dual.edges.begin() + dual.first[a], dual.edges.begin() + dual.first[a + 1], b, before) - dual.edges.begin());
 }
 
 }  // namespace
 
 Dual make_dual(const Mesh& mesh) {
   Dual dual;
-  std::vector<int> begin;
-  std::vector<TetEdge> all = bucketed(mesh, begin);
-  dual.edges.reserve(all.size() / 5);
-  for (int a = 0; a < static_cast<int>(mesh.X.size()); ++a) {
-    const auto first = all.begin() + begin[a], last = all.begin() + begin[a + 1];
-    std::stable_sort(first, last, [](const TetEdge& p, const TetEdge& q) { return p.b < q.b; });
-    for (auto it = first; it != last; ++it) {
-      if (it == first || it->b != dual.edges.back().b) dual.edges.push_back({a, it->b, it->C});
-      else dual.edges.back().C = dual.edges.back().C + it->C;
+  find_edges(mesh, dual);
+  for (const auto& t : mesh.tets)
+    for (const auto& e : tet_edges) {
+      const int a = t[e[0]], b = t[e[1]];
+      const Vec3 C = area_in_tet(mesh, t, e);
+      DualEdge& edge = dual.edges[edge_of(dual, std::min(a, b), std::max(a, b))];
+      edge.C = a < b ? edge.C + C : edge.C - C;
     }
-  }
   dual.volume.assign(mesh.X.size(), 0.0);
   for (const auto& t : mesh.tets) {
     const double quarter = 0.25 * tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);
@@ -85,15 +86,10 @@ DualDefects check_dual(const Mesh& mesh, const Dual& dual) {
 
   double tets = 0, cells = 0;
   std::vector<double> around(dual.edges.size(), 0.0);
-  const auto edge_of = [&](int a, int b) {
-    const auto it = std::lower_bound(dual.edges.begin(), dual.edges.end(), std::pair(std::min(a, b), std::max(a, b)),
-                                     [](const DualEdge& e, const std::pair<int, int>& k) { return std::pair(e.a, e.b) < k; });
-    return static_cast<std::size_t>(it - dual.edges.begin());
-  };
   for (const auto& t : mesh.tets) {
     const double V = tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);
     tets += V;
-    for (const auto& e : tet_edges) around[edge_of(t[e[0]], t[e[1]])] += V;
+    for (const auto& e : tet_edges) around[edge_of(dual, std::min(t[e[0]], t[e[1]]), std::max(t[e[0]], t[e[1]]))] += V;
   }
   for (double V : dual.volume) cells += V;
   worst.volume = std::abs(cells - tets) / tets;

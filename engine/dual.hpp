@@ -24,6 +24,7 @@ struct DualCorner {
 
 struct Dual {
   std::vector<DualEdge> edges;    // sorted by (a, b)
+  std::vector<int> first;         // edge of every node a, one more than there are nodes
   std::vector<DualCorner> corners;  // sorted by a
   std::vector<double> volume;     // [m^3] Omega_a
 };

@@ -31,7 +31,7 @@ struct Involutions {
 };
 struct Geometry {
   double min_tet_ratio = 1;                             // [-] smallest deformed over undeformed volume of a tet
-  double min_det_F_over_J = 1, max_det_F_over_J = 1;    // [-] pFJ, pFHJ
+  double min_detF_over_J = 1, max_detF_over_J = 1;    // [-] pFJ, pFHJ
 };
 
 Energies energies(Simulation& s);
@@ -60,7 +60,8 @@ std::optional<double> angular_momentum_drift(Simulation& s);
 Vec3 reaction(const Simulation& s, int face);
 
 /// Checkerboard measure of the swept pressure: sqrt(sum W (p_b - p_a - (g_a + g_b)/2 . D)^2 / sum W (p_b - p_a)^2) over the edges, W = |C|/|D|, g the Green-Gauss
-/// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11). Edges of interface nodes do not count.
+/// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11). With several materials only edges between nodes
+/// count whose neighbours are all of the same one; NaN where none has a difference of pressure.
 double checkerboard(Simulation& s);
 
 /// One stage's share of dissipation and external work, from the rows of the stage before its update.

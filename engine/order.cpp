@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/clock.hpp"
+
 namespace nanson {
 namespace {
 
@@ -82,14 +84,16 @@ std::vector<int> order_of_parts(const Graph& g, const std::vector<idx_t>& label,
 }
 
 /// Mesh nodes of every part, in memory order.
-std::vector<std::vector<int>> ordered_parts(const Dual& dual, int nodes, bool try_metis, bool& metis_failed) {
+std::vector<std::vector<int>> ordered_parts(const Dual& dual, int nodes, bool try_metis, Order& o) {
   Graph g = nodal_graph(dual, nodes);
   int count = std::max(1, (nodes + part_size(nodes) / 2) / part_size(nodes));
   std::vector<idx_t> label;
+  const double start = wall_seconds();
   if (try_metis) label = metis_parts(g, nodes, count);
+  o.metis_s = wall_seconds() - start;
   std::vector<char> seen(static_cast<std::size_t>(nodes), 0);
   if (label.empty()) {  // one RCM numbering, cut into parts
-    metis_failed = true;
+    o.metis_failed = true;
     std::vector<int> all(static_cast<std::size_t>(nodes)), order;
     std::iota(all.begin(), all.end(), 0);
     append_rcm(g, std::vector<idx_t>(static_cast<std::size_t>(nodes), 0), 0, all, seen, order);
@@ -189,7 +193,7 @@ void place_corners(Order& o, const Dual& dual) {
 Order make_order(const Dual& dual, int nodes, bool try_metis, const std::vector<int>& group) {
   Order o;
   o.nodes = nodes;
-  number_rows(o, ordered_parts(dual, nodes, try_metis, o.metis_failed), group);
+  number_rows(o, ordered_parts(dual, nodes, try_metis, o), group);
   place_edges(o, dual);
   place_corners(o, dual);
   for (auto& p : o.parts) {

@@ -26,6 +26,7 @@ struct Order {
   std::vector<int> node_of;                 // row -> mesh node, -1 for padding
   std::vector<Part> parts;                  // constraint ranges are filled by engine/boundary
   bool metis_failed = false;                // parts of one RCM numbering were cut instead
+  double metis_s = 0;                       // [s] that METIS took
 
   Aligned<std::int32_t> a, b;               // edges
   Aligned<double> C[3];

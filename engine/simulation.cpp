@@ -99,18 +99,12 @@ void open_ledger(Simulation& s) {
   l.initial_energy = e.kinetic + e.strain, l.initial_momentum = m.linear, l.initial_angular_momentum = m.angular;
 }
 
-}  // namespace
-
-Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
-  const double start = wall_seconds();
-  Simulation s;
-  s.scene = &scene, s.mesh = &mesh, s.threads = std::max(1, threads);
-  const Dual dual = checked_dual(mesh);
-  const NodeMaterials materials = node_materials(scene, mesh);
-  s.order = make_order(dual, static_cast<int>(mesh.X.size()), true, materials.group);
-  s.volume = dual.volume, s.edges = static_cast<long>(dual.edges.size());
+/// Boundary, rows and everything else that the physics carries.
+void allocate(Simulation& s, Dual dual, const NodeMaterials& materials) {
+  const Scene& scene = *s.scene;
+  const Mesh& mesh = *s.mesh;
   s.boundary = make_boundary(scene, mesh, s.order);
-  s.state = make_state(scene, mesh, dual, s.order, s.boundary);
+  s.state = make_state(scene, mesh, std::move(dual), s.order, s.boundary);
   s.mixture = make_mixture(scene, materials, s.order, s.state.step_length);
   s.functions = find_part_functions(scene.physics, scene.material, s.mixture.empty() ? Materials::one : Materials::several);
   s.coefficients = coefficients_of(scene);
@@ -120,13 +114,33 @@ Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
   s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
   s.scratch.assign(static_cast<std::size_t>(s.threads), Aligned<double>(std::max(part_scratch(s.order), mixture_scratch(s.order.most_nodes)), 0.0));
+}
+
+void start(Simulation& s) {
   set_initial_state(s);
   constrain_start(s);
   const Rows rows = start_rows(s, s.state.now);
   for_parts(s, [&](int p, Scratch scratch) { s.reports[static_cast<std::size_t>(p)] = stress_of_part(s, p, rows, s.coefficients, scratch); });
   open_ledger(s);
-  if (scene.monitor.involutions) s.initial_mismatch = gradient_mismatch(s);
-  s.setup_s = wall_seconds() - start;
+  if (s.scene->monitor.involutions) s.initial_mismatch = gradient_mismatch(s);
+}
+
+}  // namespace
+
+Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
+  Simulation s;
+  s.scene = &scene, s.mesh = &mesh, s.threads = std::max(1, threads);
+  Dual dual;
+  s.setup.time("dual", [&] { dual = checked_dual(mesh); });
+  NodeMaterials materials;
+  s.setup.time("order", [&] {
+    materials = node_materials(scene, mesh);
+    s.order = make_order(dual, static_cast<int>(mesh.X.size()), true, materials.group);
+  });
+  s.setup.add("order", -s.order.metis_s), s.setup.add("metis", s.order.metis_s);
+  s.volume = dual.volume, s.edges = static_cast<long>(dual.edges.size());
+  s.setup.time("state", [&] { allocate(s, std::move(dual), materials); });
+  s.setup.time("initial", [&] { start(s); });
   return s;
 }
 

@@ -36,7 +36,7 @@ struct Ledger {
 struct Breakdown {
   int node = -1;                          // of the mesh
   std::string text;                       // where, when and why
-  std::string_view cause;                 // det_F | J | not_finite | dt_collapse | energy_growth | iteration_limit
+  std::string_view cause;                 // detF | J | not_finite | dt_collapse | energy_growth | iteration_limit
 };
 
 struct Simulation {
@@ -60,9 +60,9 @@ struct Simulation {
   double t = 0, dt = 0;                   // [s]
   double first_dt = 0, dt_min = 0, dt_max = 0;
   long step = 0;
-  double setup_s = 0, wall_s = 0, cpu_s = 0;
+  double wall_s = 0, cpu_s = 0;           // [s] of the time loop
   Ledger ledger;
-  Clock clock;
+  Clock setup, clock;                     // of what comes before the time loop (mesh, dual, metis, order, state, initial), of its sweeps
   std::optional<Breakdown> breakdown;
   std::string_view stopped_by;            // max_steps | max_wall_s | signal
   std::string warning;                    // the first one that a run should show

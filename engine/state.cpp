@@ -43,12 +43,14 @@ Aligned<double> laplacian_weights(const Mesh& mesh, const Dual& dual, const Orde
 
 }  // namespace
 
-State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const Order& order, const Boundary& boundary) {
+State make_state(const Scene& scene, const Mesh& mesh, Dual dual, const Order& order, const Boundary& boundary) {
   State s;
   const std::size_t rows = static_cast<std::size_t>(order.rows);
   const PhysicsSpec& p = scene.physics;
   s.X.assign(row::X * rows, 0.0), s.step_length.assign(rows, 1e300);
   const std::vector<double> length = step_lengths(scene.time.step, mesh, dual);
+  if (p.stabilisation == Stabilisation::jst) s.lambda = laplacian_weights(mesh, dual, order);
+  dual.edges = std::vector<DualEdge>();             // the rows take their place
   for (std::size_t r = 0; r < rows; ++r) {
     const int n = order.node_of[r];
     for (int k = 0; k < 3 && n >= 0; ++k) s.X[row::X * r + k] = mesh.X[n][k];
@@ -72,7 +74,6 @@ State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const O
   if (p.flux_correction == FluxCorrection::full) s.Q.assign(row::Q * rows, 0.0);
   if (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear) s.GP.assign(row::GP * rows, 0.0);
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
-  if (p.stabilisation == Stabilisation::jst) s.lambda = laplacian_weights(mesh, dual, order);
   if (has_plasticity(scene)) {
     s.plastic.assign(row::plastic * rows, 0.0);
     for (std::size_t r = 0; r < rows; ++r)

@@ -26,7 +26,7 @@ struct State {
 };
 
 /// Zero or undeformed everywhere; padding rows are undeformed nodes of unit volume with an infinite step length.
-State make_state(const Scene& scene, const Mesh& mesh, const Dual& dual, const Order& order, const Boundary& boundary);
+State make_state(const Scene& scene, const Mesh& mesh, Dual dual, const Order& order, const Boundary& boundary);
 
 /// The rows of a stage that takes the rates of U[from] and writes U[to], and the next W and PH.
 Rows stage_rows(State& state, int from, int to);

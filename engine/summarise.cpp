@@ -39,7 +39,7 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
   out.split = scene.mesh.source == MeshSource::box ? word(scene.mesh.split) : word(scene.mesh.source);
   out.nodes = s.order.nodes, out.tets = static_cast<long>(s.mesh->tets.size()), out.edges = s.edges, out.steps = s.step;
   out.t_end = s.t, out.dt_min = s.dt_min, out.dt_max = s.dt_max, out.threads = s.threads;
-  out.wall_s = s.wall_s, out.cpu_s = s.cpu_s, out.setup_s = s.setup_s;
+  out.wall_s = s.wall_s, out.cpu_s = s.cpu_s, out.setup_s = s.setup.total();
   out.ns_per_node_step = s.step > 0 ? 1e9 * s.wall_s / (static_cast<double>(s.step) * s.order.nodes) : 0;
   out.bytes_per_node = bytes_per_node(s), out.fields_left_out = fields_left_out(scene), out.state_hash = state_hash(s);
   const Energies e = energies(s);
@@ -60,7 +60,7 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
       probe(s, q.place, f, v);
       out.probes[q.spec.name][name].assign(v, v + f.components);
     }
-  out.sweeps = s.clock.sweeps, out.checkerboard = checkerboard(s);
+  out.setup = s.setup.sweeps, out.sweeps = s.clock.sweeps, out.checkerboard = checkerboard(s);
   if (p.formulation == Formulation::pFp) out.projection = projection_summary(s);
   return out;
 }
@@ -74,6 +74,7 @@ std::string closing_line(const Summary& s) {
   if (s.throughput) line += fmt::format(", {:.1f} GF/s, {:.1f} GB/s", s.throughput->GF_s, s.throughput->GB_s);
   if (s.throughput && s.throughput->bandwidth_share)
     line += fmt::format(" ({:.0f} % of the update bandwidth)", 100 * *s.throughput->bandwidth_share);
+  if (s.peak_bytes) line += fmt::format(", at most {:.4g} MB resident ({:.2f} kB a node)", 1e-6 * *s.peak_bytes, 1e-3 * *s.peak_bytes / static_cast<double>(s.nodes));
   if (s.energy.closure) line += fmt::format(", energy closure {:.1e}", *s.energy.closure);
   return line;
 }

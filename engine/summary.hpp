@@ -49,9 +49,11 @@ struct Summary {
   long nodes = 0, tets = 0, edges = 0, steps = 0;
   double t_end = 0, dt_min = 0, dt_max = 0;                       // [s]
   int threads = 1;
-  double wall_s = 0, cpu_s = 0, setup_s = 0;                      // [s] time loop only; set-up apart
+  double wall_s = 0, cpu_s = 0;                                   // [s] time loop only
+  double setup_s = 0;                                             // [s] before it, the mesh included: the sum of `setup`
   double ns_per_node_step = 0;
-  double bytes_per_node = 0;
+  double bytes_per_node = 0;                                      // that a step reads or writes
+  std::optional<double> peak_bytes;                               // resident at most, of the whole process
   std::vector<std::string> fields_left_out;
   std::string state_hash;
   EnergySummary energy;
@@ -59,10 +61,10 @@ struct Summary {
   bool keep_angular_momentum = false;
   std::optional<double> angular_momentum_drift;                   // [-] ssp_rk3: only without supports and loads
   double linear_momentum_drift = 0;                               // [-]
-  double min_detF = 0, max_detF = 0;
+  double min_detF = 0, max_detF = 0;                              // [-] of the last state
   std::map<std::string, double> errors;                           // empty without an exact solution
   std::map<std::string, std::map<std::string, std::vector<double>>> probes;   // last values
-  std::vector<SweepTime> sweeps;
+  std::vector<SweepTime> setup, sweeps;
   double checkerboard = 0;                                        // [-] of the pressure, 0 smooth, 1 a checkerboard
   std::optional<ProjectionSummary> projection;                    // pFp only
   std::optional<Throughput> throughput;                           // where the model counts

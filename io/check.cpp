@@ -53,7 +53,7 @@ int check_scene(const Loaded& loaded, int threads) {
   fmt::print("{}", to_text(mesh_quality(loaded.mesh)));
   Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
   const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);
-  fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass, s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup_s);
+  fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass, s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup.total() + loaded.mesh_s);
   print_materials(s);
   print_limits(s);
   const double seconds = timed_step(s);

@@ -98,12 +98,12 @@ inline Handle create_group(hid_t at, const std::string& name, hid_t creation = H
   return {H5Gcreate2(at, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), name};
 }
 
-/// A dataset of fixed shape, written at once.
-template <class T>
-void write(hid_t at, const std::string& name, std::span<const T> values, const Dims& dims) {
+/// A dataset of fixed shape, written at once; HDF5 turns values of another type into T piece by piece.
+template <class T, class Value = T>
+void write(hid_t at, const std::string& name, std::type_identity_t<std::span<const Value>> values, const Dims& dims) {
   const Handle space(H5Screate_simple(int(dims.size()), dims.data(), nullptr), name);
   Handle data(H5Dcreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name);
-  check(H5Dwrite(data, type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+  check(H5Dwrite(data, type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
   data.close(name);
 }
 

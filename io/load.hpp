@@ -13,6 +13,7 @@ namespace nanson {
 struct Loaded {
   Scene scene;
   Mesh mesh;
+  double mesh_s = 0;                               // [s] to read or make it and to check it
 };
 
 /// Nothing when something is wrong: all of it then stands in `errors`.

@@ -1,4 +1,4 @@
-// Sections of a study file in its order; what names a quantity is checked against the summary's own keys.
+// Sections of a study file in its order: what is run.
 #include "io/read_study.hpp"
 
 #include <algorithm>
@@ -6,9 +6,8 @@
 #include <sstream>
 
 #include "io/config_table.hpp"
-#include "io/read_csv.hpp"
+#include "io/read_study_report.hpp"
 #include "io/text_file.hpp"
-#include "io/write_summary.hpp"
 
 namespace nanson {
 namespace {
@@ -65,7 +64,7 @@ void read_vary(Table& t, std::vector<StudyAxis>& axes) {
   const toml::node* node = t.find("vary");
   if (!node) return;
   const auto* table = node->as_table();
-  if (!table) return t.fail("vary", "must be a table of scene keys and lists of values");
+  if (!table || table->empty()) return t.fail("vary", "must be a table of scene keys and lists of values, at least one");
   Diagnostics& d = t.diagnostics();
   for (const auto& [key, value] : entries_of(*table)) {
     const std::string path = fmt::format("vary.{}", shown_key(key));
@@ -96,111 +95,7 @@ void read_cases(Table& root, Study& study, const fs::path& folder) {
     read_settings(t, "set", c.settings);
     study.cases.push_back(std::move(c));
   });
-}
-
-/// A reference point: a label, and numbers under the names of x and y.
-void read_point(Table& t, const ReportSpec& r, std::vector<ReferencePoint>& points) {
-  ReferencePoint p;
-  t.require("label", p.label);
-  double x = 0;
-  if (!r.x.empty() && t.require(r.x, x)) p.values[r.x] = x;
-  bool any = false;
-  for (const std::string& y : r.y) {
-    double value = 0;
-    if (t.has(y) && t.read(y, value)) p.values[y] = value;
-    any = t.find(y) || any;
-  }
-  if (!any) t.missing(r.y, fmt::format("a reference point needs one of {}", join_words(r.y)));
-  points.push_back(std::move(p));
-}
-
-void read_reference_file(Table& t, const fs::path& file, ReportSpec& r) {
-  std::string why;
-  const std::optional<CsvTable> table = read_csv(file, why);
-  if (!table) return t.fail("reference", fmt::format("{}: {}", file.string(), why));
-  const auto label = table->column("label"), x = table->column(r.x);
-  if (!label || !x) return t.fail("reference", fmt::format("{}: needs the columns label and {}", file.string(), r.x));
-  for (const auto& row : table->rows) {
-    ReferencePoint p{row[*label], {}};
-    const auto take = [&](const std::string& key) {
-      if (const auto c = table->column(key); c && number_in(row[*c])) p.values[key] = *number_in(row[*c]);
-    };
-    take(r.x);
-    for (const std::string& y : r.y) take(y);
-    r.reference.push_back(std::move(p));
-  }
-}
-
-/// One name or a list of them; each place is kept in `places`.
-void read_names(Table& t, std::string_view key, std::vector<std::string>& names, const std::vector<std::string>& allowed, std::string_view what,
-                std::map<std::string, std::string>* places = nullptr) {
-  const toml::node* node = t.find(key);
-  if (!node) return;
-  std::vector<Word> read;
-  if (const auto* one = node->as_string()) read.push_back({one->get(), t.place(key), t.path(key)});
-  else if (!t.read(key, read)) return;
-  names.clear();
-  for (const Word& w : read) {
-    if (what == "quantity" && (w.text.starts_with("probes.") || w.text.starts_with("sweeps."))) {}  // known to the runs only
-    else if (std::find(allowed.begin(), allowed.end(), w.text) == allowed.end()) report(t.diagnostics(), w, unknown_word(what, w.text, allowed));
-    if (places) places->emplace(w.text, fmt::format("{}: {}", where(t.diagnostics(), w.place), w.path));
-    names.push_back(w.text);
-  }
-}
-
-void set_defaults(Study& s) {
-  ReportSpec& r = s.report;
-  const std::vector<std::string> keys = varied_keys(s);
-  if (s.kind == StudyKind::convergence) {
-    r.x = "h", r.x_scale = r.y_scale = AxisScale::log;
-    r.rate_over = std::find(keys.begin(), keys.end(), "mesh.cells") != keys.end() ? "mesh.cells" : "";
-  } else if (!keys.empty()) {
-    r.x = keys.back();
-  }
-}
-
-void read_report(Table& t, Study& s, const fs::path& folder) {
-  ReportSpec& r = s.report;
-  const std::vector<std::string> keys = varied_keys(s);
-  std::vector<std::string> quantities = known_quantities();
-  quantities.insert(quantities.end(), keys.begin(), keys.end());
-  t.read("title", r.title);
-  t.read("text", r.text);
-  std::vector<std::string> x{r.x};
-  read_names(t, "x", x, quantities, "quantity", &r.where);
-  if (x.size() != 1) t.fail("x", "must be one name");
-  else r.x = x[0];
-  if (s.kind == StudyKind::stability && t.has("x") && std::find(keys.begin(), keys.end(), r.x) == keys.end()) t.fail("x", "must be a varied key: it is the horizontal side of the map");
-  read_names(t, "y", r.y, quantities, "quantity", &r.where);
-  for (const std::string& y : r.y)
-    if (std::find(keys.begin(), keys.end(), y) != keys.end()) t.fail("y", fmt::format("{} is varied, not a result", y));
-  read_names(t, "lines", r.lines, keys, "varied key");
-  std::vector<std::string> over{r.rate_over};
-  read_names(t, "rate_over", over, keys, "varied key");
-  if (over.size() != 1) t.fail("rate_over", "must be one name");
-  else r.rate_over = over[0];
-  std::vector<std::string> panels;
-  read_names(t, "panels", panels, keys, "varied key");
-  if (panels.size() > 1) t.fail("panels", "must be one name");
-  if (!panels.empty()) r.panels = panels[0];
-  if (!r.panels.empty() && r.panels == r.x) t.fail("panels", "is report.x");
-  std::vector<std::string> names;
-  for (const StudyCase& c : s.cases) names.push_back(c.name);
-  if (t.read("baseline", r.baseline) && t.has("baseline") && std::find(names.begin(), names.end(), r.baseline) == names.end()) t.fail("baseline", unknown_word("case", r.baseline, names));
-  t.read("max_wall_s", r.max_wall_s, {.above = 0});
-  t.read("energy_tolerance", r.energy_tolerance, {.from = 0});
-  t.read("checkerboard_max", r.checkerboard_max, {.above = 0});
-  t.read("x_scale", r.x_scale);
-  t.read("y_scale", r.y_scale);
-  t.read("reference_note", r.reference_note);
-  const toml::node* reference = t.find("reference");
-  if (!reference) return;
-  std::string file;
-  if (reference->is_string()) {
-    if (t.read("reference", file)) read_reference_file(t, folder / file, r);
-  } else {
-    t.list("reference", [&](Table& p) { read_point(p, r, r.reference); });
-  }
+  if (root.has("case") && root.sound("case") && study.cases.empty()) root.fail("case", "must have at least one entry");
 }
 
 void read_root(Table& root, Study& s, const fs::path& folder) {
@@ -218,8 +113,9 @@ void read_root(Table& root, Study& s, const fs::path& folder) {
   const bool all_own = !s.cases.empty() && std::all_of(s.cases.begin(), s.cases.end(), has_own);
   if (!root.has("scene") && !all_own) root.missing({"scene"}, "scene: is missing, or every [[case]] needs its own");
   if (s.vary.empty() && s.cases.empty() && !root.has("vary") && !root.has("case")) root.missing({"vary", "case"}, "a study needs [vary] or [[case]]: what its runs differ in");
-  set_defaults(s);
-  root.section("report", [&](Table& t) { read_report(t, s, folder); });
+  set_report_defaults(s);
+  root.section("report", [&](Table& t) { read_study_report(t, s, folder); });
+  if (!root.has("report") && root.sound("kind") && s.kind != StudyKind::stability) root.missing({"report"}, "report.y: is missing: what the plots show");
 }
 
 }  // namespace
@@ -242,12 +138,6 @@ std::string toml_text(const toml::node& value) {
   std::ostringstream out;
   out << toml::toml_formatter{value, toml::format_flags::allow_unicode_strings};
   return out.str();
-}
-
-std::vector<std::string> known_quantities() {
-  std::vector<std::string> names = summary_number_keys();
-  for (const char* own : study_quantities) names.emplace_back(own);
-  return names;
 }
 
 StudyResult read_study(const fs::path& file) {

@@ -18,9 +18,6 @@ struct StudyResult {
 /// Scenes that the study names are not read here: io/study_scenes checks them with the settings of every run.
 StudyResult read_study(const std::filesystem::path& file);
 
-/// What report.x and report.y may name besides varied keys: the numbers of summary.json and those that the study makes of them.
-std::vector<std::string> known_quantities();
-
 /// A value on one line, as --set takes it.
 std::string toml_text(const toml::node& value);
 

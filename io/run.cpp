@@ -7,6 +7,7 @@
 #include "engine/monitor.hpp"
 #include "engine/summarise.hpp"
 #include "engine/throughput.hpp"
+#include "io/peak_memory.hpp"
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
 #include "io/results_folder.hpp"
@@ -22,11 +23,20 @@ void say(const RunOptions& options, const std::string& line) {
   if (!options.quiet) fmt::print("{}\n", line), std::fflush(stdout);
 }
 
+/// "1.93 s: mesh 0.40, dual 0.35, metis 0.80 (41 %), ..."
+std::string setup_text(const Clock& setup) {
+  std::string text;
+  for (const SweepTime& s : setup.sweeps)
+    text += fmt::format("{}{} {:.2f}{}", text.empty() ? "" : ", ", s.sweep, s.seconds, s.sweep == "metis" ? fmt::format(" ({:.0f} %)", 100 * s.seconds / setup.total()) : "");
+  return fmt::format("{:.2f} s: {}", setup.total(), text);
+}
+
 void print_start(const RunOptions& options, Simulation& s, const std::vector<Probe>& probes, const std::filesystem::path& folder) {
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, set up in {:.2f} s, {:.0f} bytes a node", s.scene->name, s.order.nodes,
-                           s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads, s.threads == 1 ? "" : "s", s.setup_s, bytes_per_node(s)));
+  say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, {:.0f} bytes a node", s.scene->name, s.order.nodes,
+                           s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads, s.threads == 1 ? "" : "s", bytes_per_node(s)));
+  say(options, "set-up: " + setup_text(s.setup));
   say(options, fmt::format("start: mass {:.6g} kg, volume {:.6g} m^3, kinetic {:.6g} J, strain {:.6g} J, momentum ({:.4g}, {:.4g}, {:.4g}) kg m/s, angular momentum "
                            "({:.4g}, {:.4g}, {:.4g}) kg m^2/s",
                            s.ledger.mass, s.ledger.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2], m.angular[0], m.angular[1], m.angular[2]));
@@ -55,6 +65,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   const Scene& scene = loaded.scene;
   ResultsFolder folder(scene.name, options.out);
   Simulation s = make_simulation(scene, loaded.mesh, options.threads);
+  s.setup.add("mesh", loaded.mesh_s);
   const std::vector<Probe> probes = place_probes(scene, loaded.mesh);
   const std::vector<std::string> replaced = folder.begin();
   if (!replaced.empty()) say(options, fmt::format("replaces an earlier run's {}", fmt::join(replaced, " ")));
@@ -83,9 +94,10 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   std::string reason;
   const std::string status = run(s, observer, reason);
   Summary summary = summarise(s, probes, status, reason);
+  summary.peak_bytes = peak_bytes();               // before the bandwidth is measured, which takes 128 MB
   summary.throughput = throughput(s, 0);
   write_summary(folder.path() / "summary.json", summary, from);
-  if (!options.quiet && summary.throughput) {      // again with the bandwidth, whose measurement takes 128 MB: nothing is lost if it fails
+  if (!options.quiet && summary.throughput) {      // again with the bandwidth: nothing is lost if its measurement fails
     constexpr std::size_t beyond_L3 = 8 << 20;     // doubles: 64 MB an array
     summary.throughput = throughput(s, update_bandwidth(s.threads, beyond_L3, 3));
     write_summary(folder.path() / "summary.json", summary, from);

@@ -88,16 +88,10 @@ void write_mesh(hid_t vtkhdf, const Mesh& mesh) {
   count("NumberOfCells", m);
   count("NumberOfConnectivityIds", 4 * m);
 
-  std::vector<double> points;
-  points.reserve(3 * n);
-  for (const auto& X : mesh.X) points.insert(points.end(), X.begin(), X.end());
-  hdf5::write<double>(vtkhdf, "Points", points, {n, 3});
-
-  std::vector<int64_t> connectivity, offsets(m + 1);
-  connectivity.reserve(4 * m);
-  for (const auto& tet : mesh.tets) connectivity.insert(connectivity.end(), tet.begin(), tet.end());
+  hdf5::write<double>(vtkhdf, "Points", std::span(mesh.X.data()->data(), 3 * n), {n, 3});  // no copies of the mesh: a run's memory is fullest here
+  hdf5::write<int64_t, int>(vtkhdf, "Connectivity", std::span(mesh.tets.data()->data(), 4 * m), {4 * m});
+  std::vector<int64_t> offsets(m + 1);
   for (std::size_t i = 0; i <= m; ++i) offsets[i] = int64_t(4 * i);
-  hdf5::write<int64_t>(vtkhdf, "Connectivity", connectivity, {4 * m});
   hdf5::write<int64_t>(vtkhdf, "Offsets", offsets, {m + 1});
   hdf5::write<std::uint8_t>(vtkhdf, "Types", std::vector<std::uint8_t>(m, 10), {m});  // 10: VTK_TETRA
 

@@ -60,8 +60,8 @@ toml::table probes_table(const std::map<std::string, std::map<std::string, std::
   return table;
 }
 
-/// By name, so that a study can ask for sweeps.NAME; a sweep that is listed twice counts once, with the sum.
-toml::table sweeps_table(const std::vector<SweepTime>& sweeps) {
+/// By name, so that a study can ask for sweeps.NAME and setup.NAME; one that is listed twice counts once, with the sum.
+toml::table times_table(const std::vector<SweepTime>& sweeps) {
   std::map<std::string, double> seconds;
   for (const auto& sweep : sweeps) seconds[sweep.sweep] += sweep.seconds;
   toml::table table;
@@ -89,6 +89,11 @@ toml::table throughput_table(const std::optional<Throughput>& t) {
                      {"GF_s", number(t->GF_s)}, {"update_GB_s", number(t->update_GB_s)}, {"bandwidth_share", number(t->bandwidth_share)}};
 }
 
+std::optional<double> peak_per_node(const Summary& s) {
+  if (!s.peak_bytes || s.nodes == 0) return std::nullopt;
+  return *s.peak_bytes / static_cast<double>(s.nodes);
+}
+
 void collect_numbers(const toml::table& table, const std::string& before, std::vector<std::string>& keys) {
   for (auto&& [key, node] : table) {
     const std::string name = before + std::string(key.str());
@@ -105,11 +110,12 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
       {"step", s.step}, {"split", s.split}, {"nodes", s.nodes}, {"tets", s.tets}, {"edges", s.edges}, {"steps", s.steps}, {"t_end", number(s.t_end)},
       {"dt_min", number(s.dt_min)}, {"dt_max", number(s.dt_max)}, {"threads", s.threads}, {"wall_s", number(s.wall_s)}, {"cpu_s", number(s.cpu_s)},
       {"setup_s", number(s.setup_s)}, {"ns_per_node_step", number(s.ns_per_node_step)}, {"bytes_per_node", number(s.bytes_per_node)},
+      {"peak_bytes", number(s.peak_bytes)}, {"peak_bytes_per_node", number(peak_per_node(s))},
       {"fields_left_out", list(s.fields_left_out)}, {"state_hash", s.state_hash}, {"energy", energy_table(s.energy)}, {"mass", number(s.mass)},
       {"volume", number(s.volume)}, {"keep_angular_momentum", s.keep_angular_momentum},
       {"angular_momentum_drift", number(s.angular_momentum_drift)},
       {"linear_momentum_drift", number(s.linear_momentum_drift)}, {"min_detF", number(s.min_detF)}, {"max_detF", number(s.max_detF)},
-      {"probes", probes_table(s.probes)}, {"sweeps", sweeps_table(s.sweeps)}, {"provenance", provenance_table(from)}};
+      {"probes", probes_table(s.probes)}, {"setup", times_table(s.setup)}, {"sweeps", times_table(s.sweeps)}, {"provenance", provenance_table(from)}};
   table.insert("checkerboard", number(s.checkerboard));
   table.insert("projection", projection_table(s.projection));
   table.insert("throughput", throughput_table(s.throughput));

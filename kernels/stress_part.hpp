@@ -65,14 +65,14 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
       s = Law_::stress(F, H, J, k.material);
     }
 
-    store_rows(rows, n, v, !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J, s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
+    store_rows(rows, n, v, !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.detF : J, s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);
     if constexpr (formulation != Formulation::pF && law != Law::linear_elastic)
       c = larger(c, s.d2U * inverse_rho_cp * (k.deformed_metric ? root(s.H2) : s.H2));
     const Vec8 rate = c / load8(step_length + n);
     fastest = larger(rate, fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    sound = sound & (s.det_F > 0.0) & (size - size == 0.0);
+    sound = sound & (s.detF > 0.0) & (size - size == 0.0);
     if constexpr (formulation != Formulation::pF) sound = sound & (J > 0.0);
     broken = broken | ~sound;
   }

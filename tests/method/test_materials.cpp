@@ -197,5 +197,32 @@ TEST(Materials, RegionWithoutMaterialIsRefused) {
   EXPECT_THROW(two.start(), std::invalid_argument);
 }
 
+TEST(Materials, ThePressureJumpsBetweenThemWithoutBeingTakenForACheckerboard) {
+  const TwoMaterials two(free_bar(6), rubber(), times(rubber(), 1, 1000));
+  Simulation s = two.start();
+  const auto set_pressure = [&](double noise) {
+    std::mt19937 random(3);
+    for (int n = 0; n < s.order.rows; ++n) {
+      const std::size_t r = static_cast<std::size_t>(n);
+      const double *X = &s.state.X[row::X * r], stiff = s.mixture.share[1][r], sign = random() % 2 ? 1 : -1;
+      s.state.W[s.state.now][row::W * r + 3] = (1 - stiff) * (1 + X[0] - 2 * X[2]) + stiff * (1000 + 300 * X[1] + 50 * X[2]) + noise * sign;
+    }
+  };
+  set_pressure(0);
+  EXPECT_LT(checkerboard(s), 1e-11);
+  set_pressure(1e4);
+  EXPECT_GT(checkerboard(s), 0.7);
+}
+
+TEST(Materials, NoCheckerboardIsToldOfWhereEveryNodeIsNextToAnInterface) {
+  const TwoMaterials two(free_bar(1), rubber(), times(rubber(), 1, 1000));
+  Simulation s = two.start();
+  for (int n = 0; n < s.order.rows; ++n) s.state.W[s.state.now][static_cast<std::size_t>(row::W * n + 3)] = n;
+  EXPECT_TRUE(std::isnan(checkerboard(s)));
+  const Problem one(free_bar(1));
+  Simulation at_rest = one.start();
+  EXPECT_EQ(checkerboard(at_rest), 0) << "no pressure yet";
+}
+
 }  // namespace
 }  // namespace nanson

@@ -9,6 +9,21 @@
 namespace nanson::method {
 namespace {
 
+TEST(Setup, ItsStepsAreTimedOneByOneWithMetisApart) {
+  const Problem problem(free_bar(12));
+  const double start = wall_seconds();
+  const Simulation s = problem.start();
+  const double seconds = wall_seconds() - start;
+  std::vector<std::string> names;
+  for (const SweepTime& part : s.setup.sweeps) {
+    names.push_back(part.sweep);
+    EXPECT_GT(part.seconds, 0) << part.sweep;
+  }
+  EXPECT_EQ(names, (std::vector<std::string>{"dual", "order", "metis", "state", "initial"}));
+  EXPECT_LE(s.setup.total(), seconds);
+  EXPECT_GT(s.setup.total(), 0.5 * seconds) << "nothing that takes long is left out";
+}
+
 /// min l/c_p times cfl at F = I, straight from the mesh: l = 6 Omega / sum |C|, the node's shortest edge, the mesh's shortest edge.
 double expected_step(const Problem& p) {
   const Dual dual = make_dual(p.mesh);

@@ -76,13 +76,14 @@ def check_summary(path, attributes):
         raise ValueError(f"{constant} is not JSON")
     summary = json.loads(path.read_text(encoding="utf-8"), parse_constant=refuse)
     assert summary["status"] == "breakdown" and summary["reason"] == 'det F = NaN at node 7, "top"\n'
-    assert summary["cause"] == "det_F"
+    assert summary["cause"] == "detF"
     assert summary["nodes"] == 117 and summary["tets"] == 288 and summary["wall_s"] == 0.1 + 0.2
+    assert summary["peak_bytes"] == 234e3 and summary["peak_bytes_per_node"] == 2000
     assert summary["min_detF"] is None and summary["max_detF"] == 0
     assert summary["energy"] == {"initial": 2, "kinetic": 0, "strain": 0, "external_work": 0.5, "dissipated": None, "angular_momentum_work": None, "closure": None, "lost_at_start": None}
     assert summary["errors"] == {"p1_L2": 1 / 3, "P11_L2": None}
     assert summary["probes"] == {"tip": {"x": [1, 2, 3], "pressure": [-0.5]}}
-    assert summary["sweeps"] == {"edge_flux": 0.75} and summary["fields_left_out"] == ["H"]
+    assert summary["setup"] == {"metis": 0.25} and summary["sweeps"] == {"edge_flux": 0.75} and summary["fields_left_out"] == ["H"]
     assert summary["provenance"] == {key: attributes[key] for key in ("version", "commit", "compiler", "flags", "cpu", "host")}
 
 

@@ -35,7 +35,7 @@ int main(int count, char** arguments) {
   Summary summary;
   summary.status = "breakdown";
   summary.reason = "det F = NaN at node 7, \"top\"\n";
-  summary.cause = "det_F";
+  summary.cause = "detF";
   summary.scene = "sample";
   summary.nodes = long(mesh.X.size());
   summary.tets = long(mesh.tets.size());
@@ -46,6 +46,8 @@ int main(int count, char** arguments) {
   summary.energy.external_work = 0.5;
   summary.errors = {{"p1_L2", 1.0 / 3}, {"P11_L2", std::numeric_limits<double>::infinity()}};
   summary.probes["tip"] = {{"x", {1.0, 2.0, 3.0}}, {"pressure", {-0.5}}};
+  summary.peak_bytes = 234e3;
+  summary.setup = {{"metis", 0.25}};
   summary.sweeps = {{"edge_flux", 0.75}};
   summary.fields_left_out = {"H"};
   write_summary(folder.path() / "summary.json", summary, from);

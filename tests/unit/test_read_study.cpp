@@ -1,4 +1,5 @@
 // Study files: every error at once with its place; settings of runs are checked before anything runs, at the place that sets them.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/read_study.hpp"
@@ -82,7 +83,7 @@ TEST(Study, EveryErrorHasItsPlace) {
   expect_errors(edited(cube_study, "study = \"cube\"\n", ""), {"study.toml:1:1: study: is missing"});
   expect_errors(edited(cube_study, "\"cube\"", "\"a/b\""), {"study.toml:1:9: study = \"a/b\": names a folder"});
   expect_errors(edited(cube_study, "scene = \"small.toml\"\n", ""), {"study.toml:1:1: scene: is missing, or every [[case]] needs its own"});
-  expect_errors("study = \"x\"\nkind = \"sweep\"\nscene = \"small.toml\"\n", {"study.toml:1:1: a study needs [vary] or [[case]]"});
+  expect_errors("study = \"x\"\nkind = \"sweep\"\nscene = \"small.toml\"\n", {"study.toml:1:1: a study needs [vary] or [[case]]", "study.toml:1:1: report.y: is missing: what the plots show"});
   expect_errors("study = \n", {"study.toml:1:9: "});
 }
 
@@ -164,6 +165,47 @@ TEST(Study, ReferencePointsStandInTheFileOrBesideIt) {
   }
   expect_errors(cube_study + "[[report.reference]]\nlabel = \"other\"\ncpu_s = 1.5\n", {"study.toml:15:1: a reference point needs one of energy.strain | checkerboard"});
   expect_errors(cube_study + "reference = \"none.csv\"\n", {"study.toml:15:13: report.reference = \"none.csv\": none.csv: no such file"});
+}
+
+const std::string map_study = R"(study = "m"
+kind  = "stability"
+scene = "small.toml"
+[vary]
+"time.cfl" = [0.1, 0.2]
+[report]
+y = ["checkerboard"]
+)";
+const std::string bars_study = "study = \"b\"\nkind = \"compare\"\nscene = \"small.toml\"\n[[case]]\nname = \"as it is\"\n[report]\ny = \"cpu_s\"\n";
+
+TEST(Study, KeysThatItsKindDoesNotShowAreRefused) {
+  EXPECT_TRUE(prepared(map_study).errors.empty());
+  EXPECT_TRUE(prepared(bars_study).errors.empty());
+  const std::string of_a_map = ": is not a key of a stability map, whose keys are title | text | x | y | rate_over | max_wall_s | energy_tolerance | checkerboard_max";
+  for (const char* line : {"lines = \"time.cfl\"", "panels = \"time.cfl\"", "x_scale = \"log\"", "y_scale = \"log\"", "baseline = \"a\"", "reference = \"peers.csv\"", "reference_note = \"a\""}) {
+    const Prepared p = prepared(map_study + line + "\n");
+    ASSERT_EQ(p.errors.size(), 1u) << line << joined(p.errors);
+    EXPECT_EQ(p.errors[0], fmt::format("study.toml:8:{}: report.{}{}", std::string_view(line).find('=') + 3, line, of_a_map));
+  }
+  for (const char* line : {"x = \"cpu_s\"", "lines = \"case\"", "y_scale = \"log\""}) {
+    const Prepared p = prepared(bars_study + line + "\n");
+    ASSERT_EQ(p.errors.size(), 1u) << line << joined(p.errors);
+    EXPECT_NE(p.errors[0].find("is not a key of a comparison"), std::string::npos) << p.errors[0];
+  }
+  expect_errors(cube_study + "baseline = \"a\"\n", {"study.toml:15:12: report.baseline = \"a\": is not a key of a study with curves"});
+  expect_errors(cube_study + "reference_note = \"a\"\n", {"study.toml:15:18: report.reference_note = \"a\": is about report.reference, which is missing"});
+}
+
+TEST(Study, WhatNothingCanBeRunOrShownFromIsRefused) {
+  expect_errors(edited(map_study, "\"time.cfl\" = [0.1, 0.2]\n", ""), {"study.toml:4:1: vary: must be a table of scene keys and lists of values, at least one"});
+  expect_errors(edited(bars_study, "[[case]]\nname = \"as it is\"\n", "case = []\n"), {"study.toml:4:8: case = []: must have at least one entry"});
+  for (const std::string& text : {edited(cube_study, "y = [\"energy.strain\", \"checkerboard\"]\n", ""), edited(bars_study, "y = \"cpu_s\"\n", "")}) {
+    const Prepared p = prepared(text);
+    ASSERT_EQ(p.errors.size(), 1u) << joined(p.errors);
+    EXPECT_NE(p.errors[0].find("report.y: is missing: what the plots show"), std::string::npos) << p.errors[0];
+  }
+  expect_errors(cube_study.substr(0, cube_study.find("[report]")), {"study.toml:1:1: report.y: is missing: what the plots show"});
+  expect_errors(edited(cube_study, "[\"energy.strain\", \"checkerboard\"]", "[]"), {"study.toml:11:5: report.y = []: must name at least one quantity"});
+  EXPECT_TRUE(prepared(map_study.substr(0, map_study.find("[report]"))).errors.empty()) << "a map shows verdicts";
 }
 
 TEST(StudyHash, ChangesWithWhatTheRunIsMadeOf) {

@@ -18,9 +18,9 @@ TEST(WriteSummary, HasAllKeys) {
   for (const char* key :
        {"status", "reason", "cause", "scene", "formulation", "material", "description", "stabilisation", "reconstruction", "flux_correction", "boundary_flux",
         "upwind_metric", "pressure_jump", "integrator", "step", "split", "nodes", "tets", "edges", "steps", "t_end", "dt_min", "dt_max", "threads", "wall_s",
-        "cpu_s", "setup_s", "ns_per_node_step", "bytes_per_node", "fields_left_out", "state_hash", "energy", "initial", "kinetic", "strain", "external_work",
+        "cpu_s", "setup_s", "ns_per_node_step", "bytes_per_node", "peak_bytes", "peak_bytes_per_node", "fields_left_out", "state_hash", "energy", "initial", "kinetic", "strain", "external_work",
         "dissipated", "angular_momentum_work", "closure", "lost_at_start", "mass", "volume", "keep_angular_momentum", "angular_momentum_drift", "linear_momentum_drift", "min_detF", "max_detF", "errors",
-        "probes", "sweeps", "checkerboard", "projection", "throughput", "provenance", "version", "commit", "compiler", "flags", "cpu", "host"})
+        "probes", "setup", "sweeps", "checkerboard", "projection", "throughput", "provenance", "version", "commit", "compiler", "flags", "cpu", "host"})
     EXPECT_TRUE(contains(json, '"' + std::string(key) + "\" : ")) << key;
 }
 
@@ -37,6 +37,13 @@ TEST(WriteSummary, MissingAndNonFiniteNumbersAreNull) {
     EXPECT_TRUE(contains(json, text)) << text << json;
   EXPECT_FALSE(contains(json, "NaN"));
   EXPECT_FALSE(contains(json, "Infinity"));
+}
+
+TEST(WriteSummary, ThePeakIsSharedOutOverTheNodes) {
+  Summary summary;
+  EXPECT_TRUE(contains(summary_json(summary, from), "\"peak_bytes_per_node\" : null"));
+  summary.nodes = 1000, summary.peak_bytes = 1.5e6;
+  EXPECT_TRUE(contains(summary_json(summary, from), "\"peak_bytes_per_node\" : 1500"));
 }
 
 TEST(WriteSummary, TextIsEscapedAndNeverTakenForNull) {
