@@ -6,6 +6,7 @@
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
 #include "kernels/part.hpp"
+#include "kernels/parting.hpp"
 
 namespace nanson {
 
@@ -23,7 +24,7 @@ NANSON_INLINE void store_plastic(double* p, const PlasticState<Vec8>& z) {
 
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, bool commits>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Parting parting, bool commits>
 PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   using Law_ = Material<law, volumetric, isochoric, formulation>;
   const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
@@ -54,6 +55,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     } else {
       s = Law_::stress(F, H, J, k.material);
     }
+    if constexpr (parting == Parting::energy) add_parting(s, F, J, k.material.parting);
 
     const Vec8 zero{};
     store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J);
@@ -76,14 +78,14 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
   return {largest(fastest), any(broken), work};
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Parting parting>
 PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   if constexpr (law == Law::hencky_j2)
-    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, true>(part, rows, k, step_length);
-  return stress_sweep<law, volumetric, isochoric, formulation, false>(part, rows, k, step_length);
+    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, parting, true>(part, rows, k, step_length);
+  return stress_sweep<law, volumetric, isochoric, formulation, parting, false>(part, rows, k, step_length);
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Parting parting>
 double strain_energy_part(const Part& part, const Rows& rows, const Coefficients& k) {
   double sum = 0;
   for (int n = part.node_begin; n < part.node_end; ++n) {
@@ -100,6 +102,7 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
     } else {
       density = Law_::energy(F, H, U[3], k.material);
     }
+    if constexpr (parting == Parting::energy) density += parting_energy(F, U[3], k.material.parting);
     sum += density / rows.X[row::X * n + 3];
   }
   return sum;
