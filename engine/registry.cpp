@@ -126,7 +126,7 @@ void find_material(PartFunctions& f, const PhysicsSpec& p, const MaterialSpec& m
           constexpr bool own_energy = law == Law::linear_elastic || law == Law::hencky_j2;
           if constexpr (form == Formulation::pFp) {
             if constexpr (!own_energy && volumetric == Volumetric::quadratic && isochoric == Isochoric::F)
-              f.stress = projected_stress_part<law>, f.strain_energy = projected_energy_part<law>;
+              if (!with_parting) f.stress = projected_stress_part<law>, f.strain_energy = projected_energy_part<law>;
           } else if constexpr (own_energy && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) return;
           else if constexpr (form == Formulation::pF && isochoric != Isochoric::F) return;
           else {
@@ -134,12 +134,12 @@ void find_material(PartFunctions& f, const PhysicsSpec& p, const MaterialSpec& m
             f.strain_energy = strain_energy_part<law, volumetric, isochoric, form>;
             if (!current_areas && !with_parting) return;
             f.stress = nullptr;
-            if constexpr (takes_parting(law, volumetric, isochoric, form))
-              if (with_parting && !current_areas) {
-                f.stress = stress_part<law, volumetric, isochoric, form, Parting::energy>;
-                f.strain_energy = strain_energy_part<law, volumetric, isochoric, form, Parting::energy>;
-              }
-            if (with_parting) return;
+            if (with_parting) {
+              if constexpr (takes_parting(law, volumetric, isochoric, form))
+                if (!current_areas)
+                  f.stress = stress_part<law, volumetric, isochoric, form, Parting::energy>, f.strain_energy = strain_energy_part<law, volumetric, isochoric, form, Parting::energy>;
+              return;
+            }
             if constexpr (form == Formulation::pFJ && law != Law::linear_elastic) f.stress = cauchy_stress_part<law, volumetric, isochoric>;
           }
         });
