@@ -168,6 +168,7 @@ TEST_P(Reference, EveryBuiltCombinationGivesTheNumbersOfThePlainLoop) {
   const bool one_law = c.law == Law::neo_hookean && c.volumetric == Volumetric::quadratic && c.isochoric == Isochoric::F;
   for (const PhysicsSpec& p : sweeps_of(c.formulation)) {
     if (is_rare(p) && (!one_law || c.parting > 0)) continue;
+    if (c.parting > 0 && p.pressure_jump != PressureJump::scalar) continue;  // no scene has both
     scene.physics = p, scene.physics.parting = c.parting;
     EXPECT_LT(difference_after(scene, mesh, 3, 1, 2), is_rare(p) ? rare_tolerance : tolerance) << text_of(p);
   }
