@@ -25,11 +25,11 @@ void material_pass(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std:
     if (n.scene->physics.parting > 0) add_parting(s, F, U.J, m.parting);
     for (int k = 0; k < 9; ++k) n.stress[a].P[k / 3][k % 3] = s.P[k / 3][k % 3], n.stress[a].H[k / 3][k % 3] = s.H[k / 3][k % 3];
     for (int k = 0; k < 9 && !n.dJ.empty(); ++k) n.stress[a].H[k / 3][k % 3] = dot(n.stress[a].P[k / 3], U.F[k % 3]) / U.J;
-    n.W[a] = {U.v[0], U.v[1], U.v[2], !jst ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : U.J};
+    n.W[a] = {U.v[0], U.v[1], U.v[2], !jst ? s.Sigma_J : formulation == Formulation::pF ? s.detF : U.J};
     double c = std::sqrt(s.rho_c2 / m.rho);
     if (formulation != Formulation::pF && law != Law::linear_elastic) c = std::max(c, s.d2U / (m.rho * m.cp) * (deformed ? std::sqrt(s.H2) : s.H2));
     n.report.fastest = std::max(n.report.fastest, c / n.step_length[a]);
-    if (!(s.det_F > 0) || !std::isfinite(dot(U.v, U.v)) || (formulation != Formulation::pF && !(U.J > 0))) n.report.broken = true;
+    if (!(s.detF > 0) || !std::isfinite(dot(U.v, U.v)) || (formulation != Formulation::pF && !(U.J > 0))) n.report.broken = true;
   }
 }
 

@@ -69,9 +69,9 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
     if (name == "H" && has_current_areas(s.scene->physics.description)) out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
     if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
   }
-  const auto det_F = [&] { const auto F = F_of(U); return determinant(F, cofactor(F)); };
-  if (name == "det_F") out[0] = det_F();
-  if (name == "J") out[0] = evolves_J(s.scene->physics.formulation) ? U[3] : det_F();
+  const auto detF = [&] { const auto F = F_of(U); return determinant(F, cofactor(F)); };
+  if (name == "detF") out[0] = detF();
+  if (name == "J") out[0] = evolves_J(s.scene->physics.formulation) ? U[3] : detF();
   if (name == "pressure") { const auto a = cauchy(s, node); out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3; }
   if (name == "plastic_strain") out[0] = plastic_strain(s, node);
   if (name == "von_mises") out[0] = von_mises(cauchy(s, node));

@@ -28,7 +28,7 @@ void add_monitor_columns(const Scene& scene, std::vector<HistoryColumn>& c) {
   if (m.involutions && f == Formulation::pFHJ) c.push_back({"involution_H", "-"});
   if (m.involutions && evolves_J(f)) c.push_back({"involution_J", "-"});
   if (m.geometry) c.push_back({"min_tet_ratio", "-"});
-  if (m.geometry && evolves_J(f)) c.insert(c.end(), {{"min_det_F_over_J", "-"}, {"max_det_F_over_J", "-"}});
+  if (m.geometry && evolves_J(f)) c.insert(c.end(), {{"min_detF_over_J", "-"}, {"max_detF_over_J", "-"}});
 }
 
 void add_monitor_values(Simulation& s, std::vector<double>& row) {
@@ -47,7 +47,7 @@ void add_monitor_values(Simulation& s, std::vector<double>& row) {
   if (m.geometry) {
     const Geometry g = geometry(s);
     row.push_back(g.min_tet_ratio);
-    if (evolves_J(f)) row.insert(row.end(), {g.min_det_F_over_J, g.max_det_F_over_J});
+    if (evolves_J(f)) row.insert(row.end(), {g.min_detF_over_J, g.max_detF_over_J});
   }
 }
 
@@ -71,7 +71,7 @@ std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vecto
   if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) c.push_back({"angular_momentum_work", "J"});
   for (const char* k : axis) c.push_back({fmt::format("momentum_{}", k), "kg m/s"});
   for (const char* k : axis) c.push_back({fmt::format("angular_momentum_{}", k), "kg m^2/s"});
-  c.insert(c.end(), {{"min_det_F", "-"}, {"max_det_F", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
+  c.insert(c.end(), {{"min_detF", "-"}, {"max_detF", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
   if (!s.state.plastic.empty()) c.push_back({"max_plastic_strain", "-"});
   add_monitor_columns(*s.scene, c);
   if (s.scene->physics.formulation == Formulation::pFp) c.insert(c.end(), {{"projection_iterations", "1/stage"}, {"projection_residual", "-"}});

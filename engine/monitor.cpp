@@ -40,7 +40,7 @@ constexpr long settling_steps = 20;  // a load that starts from nothing does wor
 double position(const double* U, int k) { return U[4 * (k + 1) + 3]; }
 double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
 
-double det_F(const double* U) {
+double detF(const double* U) {
   Tensor<double> F;
   for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
   return determinant(F, cofactor(F));
@@ -85,7 +85,7 @@ Extrema extrema(const Simulation& s) {
   for (int n = 0; n < s.order.rows; ++n) {
     if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * n)];
-    const double d = det_F(U), J = with_J ? U[3] : d;
+    const double d = detF(U), J = with_J ? U[3] : d;
     e.min_detF = std::min(e.min_detF, d), e.max_detF = std::max(e.max_detF, d);
     e.min_J = std::min(e.min_J, J), e.max_J = std::max(e.max_J, J);
     e.max_speed = std::max(e.max_speed, norm3(U[0], U[1], U[2]));
@@ -265,15 +265,15 @@ std::string place(const Simulation& s, int node) {
   const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
   const Vec3& X = mesh.X[static_cast<std::size_t>(node)];
   return fmt::format("node {} at X = ({:.6g}, {:.6g}, {:.6g}), x = ({:.6g}, {:.6g}, {:.6g}) m, det F = {:.6g}, J = {:.6g}, |v| = {:.6g} m/s, tets {}, region {}", node,
-                     X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), det_F(U), evolves_J(s.scene->physics.formulation) ? U[3] : det_F(U),
+                     X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), detF(U), evolves_J(s.scene->physics.formulation) ? U[3] : detF(U),
                      norm3(U[0], U[1], U[2]), fmt::join(tets, " "), fmt::join(regions, " "));
 }
 
 /// The cause as a word and in words; nothing where the row is sound.
 std::pair<std::string_view, const char*> broken_by(const double* U, bool with_J) {
-  const double d = det_F(U);
+  const double d = detF(U);
   if (!std::isfinite(d) || !std::isfinite(norm3(U[0], U[1], U[2]))) return {"not_finite", std::isfinite(d) ? "v is not finite" : "det F is not finite"};
-  if (!(d > 0)) return {"det_F", "det F is not positive"};
+  if (!(d > 0)) return {"detF", "det F is not positive"};
   if (with_J && std::isfinite(U[3]) && !(U[3] > 0)) return {"J", "J is not positive"};
   if (!std::isfinite(U[3])) return {"not_finite", with_J ? "J is not finite" : "the pressure is not finite"};
   return {"", nullptr};

@@ -31,7 +31,7 @@ struct Involutions {
 };
 struct Geometry {
   double min_tet_ratio = 1;                             // [-] smallest deformed over undeformed volume of a tet
-  double min_det_F_over_J = 1, max_det_F_over_J = 1;    // [-] pFJ, pFHJ
+  double min_detF_over_J = 1, max_detF_over_J = 1;    // [-] pFJ, pFHJ
 };
 
 Energies energies(Simulation& s);

@@ -21,7 +21,7 @@ double deformed_over_undeformed(const Simulation& s, const std::array<int, 4>& t
   return tet_volume(x[0], x[1], x[2], x[3]) / tet_volume(X[0], X[1], X[2], X[3]);
 }
 
-double det_F_over_J(const double* U) {
+double detF_over_J(const double* U) {
   Tensor<double> F;
   for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
   return determinant(F, cofactor(F)) / U[3];
@@ -37,19 +37,19 @@ Geometry geometry(const Simulation& s) {
   for (int t = 0; t < tets; ++t) least_tet = std::min(least_tet, deformed_over_undeformed(s, s.mesh->tets[static_cast<std::size_t>(t)]));
   g.min_tet_ratio = least_tet;
   if (!evolves_J(s.scene->physics.formulation)) return g;
-  g.min_det_F_over_J = 1e300, g.max_det_F_over_J = -1e300;
+  g.min_detF_over_J = 1e300, g.max_detF_over_J = -1e300;
   for (int n = 0; n < s.order.nodes; ++n) {
-    const double ratio = det_F_over_J(U_row(s, n));
-    g.min_det_F_over_J = std::min(g.min_det_F_over_J, ratio), g.max_det_F_over_J = std::max(g.max_det_F_over_J, ratio);
+    const double ratio = detF_over_J(U_row(s, n));
+    g.min_detF_over_J = std::min(g.min_detF_over_J, ratio), g.max_detF_over_J = std::max(g.max_detF_over_J, ratio);
   }
   return g;
 }
 
 std::optional<std::string> geometry_warning(const Simulation& s) {
   const Geometry g = geometry(s);
-  if (g.min_det_F_over_J >= 1 / parted && g.max_det_F_over_J <= parted) return std::nullopt;
+  if (g.min_detF_over_J >= 1 / parted && g.max_detF_over_J <= parted) return std::nullopt;
   return fmt::format("J and det F part: at step {}, t = {:.6e} s, det F/J ranges from {:.3g} to {:.3g}; a finer mesh, physics.parting or formulation = \"pF\" may help", s.step, s.t,
-                     g.min_det_F_over_J, g.max_det_F_over_J);
+                     g.min_detF_over_J, g.max_detF_over_J);
 }
 
 }  // namespace nanson

@@ -214,6 +214,6 @@ struct FieldName {
   std::string_view unit;
 };
 inline constexpr std::array<FieldName, 11> field_names{{{"x", 3, "m"}, {"displacement", 3, "m"}, {"velocity", 3, "m/s"}, {"pressure", 1, "Pa"}, {"P", 9, "Pa"},
-                                                       {"F", 9, "-"}, {"H", 9, "-"}, {"J", 1, "-"}, {"det_F", 1, "-"}, {"von_mises", 1, "Pa"}, {"plastic_strain", 1, "-"}}};
+                                                       {"F", 9, "-"}, {"H", 9, "-"}, {"J", 1, "-"}, {"detF", 1, "-"}, {"von_mises", 1, "Pa"}, {"plastic_strain", 1, "-"}}};
 
 }  // namespace nanson

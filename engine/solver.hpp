@@ -36,7 +36,7 @@ struct Ledger {
 struct Breakdown {
   int node = -1;                          // of the mesh
   std::string text;                       // where, when and why
-  std::string_view cause;                 // det_F | J | not_finite | dt_collapse | energy_growth | iteration_limit
+  std::string_view cause;                 // detF | J | not_finite | dt_collapse | energy_growth | iteration_limit
 };
 
 struct Simulation {

@@ -71,7 +71,7 @@ struct Study {
 
 /// What a study makes of a run, beside the numbers of its summary: mesh size (6 volume / tets)^(1/3) [m], the edge of a cell of six tets; wall seconds of the
 /// whole process; and the extremes over the history that the verdict is taken from.
-inline constexpr std::array<const char*, 5> study_quantities{"h", "process_s", "energy_excess", "least_det_F", "least_tet_ratio"};
+inline constexpr std::array<const char*, 5> study_quantities{"h", "process_s", "energy_excess", "least_detF", "least_tet_ratio"};
 
 struct PlannedRun {
   std::string label;                               // "mesh.cells = [6, 6, 6], physics.formulation = pF"

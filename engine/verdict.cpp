@@ -46,7 +46,7 @@ std::string text_of(const RunSummary& s, const std::string& key) {
 }
 
 Verdict verdict_of_cause(const std::string& cause) {
-  if (cause == "det_F" || cause == "J") return Verdict::inverted;
+  if (cause == "detF" || cause == "J") return Verdict::inverted;
   if (cause == "not_finite") return Verdict::not_finite;
   if (cause == "dt_collapse") return Verdict::dt_collapse;
   if (cause == "energy_growth") return Verdict::energy_grew;
@@ -62,7 +62,7 @@ void judge_course(Judgement& j, const RunOutcome& run, const std::optional<Growt
   };
   if (g && g->first_t >= 0)
     found(Verdict::energy_grew, fmt::format("more than the initial energy and external work from t = {:.4g} s on, by {:.3g} of them at most (allowed {:g})", g->first_t, g->largest, rules.energy_tolerance));
-  if (j.min_det_F <= 0) found(Verdict::inverted, fmt::format("det F fell to {:.3g}", j.min_det_F));
+  if (j.min_detF <= 0) found(Verdict::inverted, fmt::format("det F fell to {:.3g}", j.min_detF));
   if (const double J = least(run.history.min_J); J <= 0) found(Verdict::inverted, fmt::format("J fell to {:.3g}", J));
   if (j.min_tet_ratio <= 0) found(Verdict::inverted, fmt::format("a tet was turned inside out: its volume fell to {:.3g} of the undeformed one", j.min_tet_ratio));
   const auto chi = run.summary->numbers.find("checkerboard");
@@ -76,7 +76,7 @@ Judgement judge(const RunOutcome& run, const VerdictRules& rules) {
   Judgement j;
   const std::optional<Growth> g = growth(run.history, rules);
   if (g) j.energy_excess = g->largest;
-  j.min_det_F = least(run.history.min_det_F), j.min_tet_ratio = least(run.history.min_tet_ratio);
+  j.min_detF = least(run.history.min_detF), j.min_tet_ratio = least(run.history.min_tet_ratio);
   if (run.too_slow) {
     j.verdict = Verdict::too_slow;
     j.reason = fmt::format("took longer than report.max_wall_s = {:g} s", rules.max_wall_s);

@@ -26,7 +26,7 @@ struct RunSummary {
 struct RunHistory {
   std::vector<double> t;                           // [s]
   std::vector<double> kinetic, strain, external_work, angular_momentum_work;  // [J]
-  std::vector<double> min_det_F, min_J, min_tet_ratio;  // [-]
+  std::vector<double> min_detF, min_J, min_tet_ratio;  // [-]
 };
 
 /// What a child process left behind.
@@ -50,7 +50,7 @@ struct Judgement {
   Verdict verdict = Verdict::sound;
   std::string reason;                              // a sentence, empty when sound
   std::optional<double> energy_excess;             // [-] largest (E - E0 - W) over the larger of E0 and the largest |W|; nothing when it is not known
-  double min_det_F = 0, min_tet_ratio = 0;         // [-] over the run; NaN when it was not recorded
+  double min_detF = 0, min_tet_ratio = 0;         // [-] over the run; NaN when it was not recorded
 };
 
 Judgement judge(const RunOutcome& run, const VerdictRules& rules);

@@ -19,7 +19,7 @@ StudyRunResult assess(const StudyRun& run, RunOutcome outcome) {
   if (const auto volume = quantity(r, "volume"), tets = quantity(r, "tets"); volume && tets && *tets > 0) q["h"] = std::cbrt(6 * *volume / *tets);
   q["process_s"] = outcome.wall_s;
   if (r.judgement.energy_excess) q["energy_excess"] = *r.judgement.energy_excess;
-  if (std::isfinite(r.judgement.min_det_F)) q["least_det_F"] = r.judgement.min_det_F;
+  if (std::isfinite(r.judgement.min_detF)) q["least_detF"] = r.judgement.min_detF;
   if (std::isfinite(r.judgement.min_tet_ratio)) q["least_tet_ratio"] = r.judgement.min_tet_ratio;
   for (const auto& [key, value] : run.plan.varied)
     if (const auto number = number_in(value)) q[key] = *number;

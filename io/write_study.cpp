@@ -30,7 +30,7 @@ std::vector<std::string> quantity_columns(const StudyResults& all) {
   };
   for (const std::string& y : all.study->report.y) add(y);
   add(all.study->report.x);
-  for (const char* name : {"h", "nodes", "tets", "steps", "cpu_s", "wall_s", "process_s", "ns_per_node_step", "bytes_per_node", "energy_excess", "least_det_F", "least_tet_ratio", "checkerboard"}) add(name);
+  for (const char* name : {"h", "nodes", "tets", "steps", "cpu_s", "wall_s", "process_s", "ns_per_node_step", "bytes_per_node", "energy_excess", "least_detF", "least_tet_ratio", "checkerboard"}) add(name);
   return columns;
 }
 

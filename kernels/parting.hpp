@@ -13,8 +13,8 @@ namespace nanson {
 template <class Real>
 NANSON_INLINE void add_parting(Stress<Real>& s, const Tensor<Real>& F, Real J, double M) {
   const Tensor<Real> cof = cofactor(F);
-  const Real inverse_J = 1.0 / J, inverse_d = 1.0 / s.det_F, gap = inverse_d - inverse_J;
-  const Real l = logarithm(s.det_F * inverse_J), of_d = M * l * inverse_d, of_J = -M * l * inverse_J;
+  const Real inverse_J = 1.0 / J, inverse_d = 1.0 / s.detF, gap = inverse_d - inverse_J;
+  const Real l = logarithm(s.detF * inverse_J), of_d = M * l * inverse_d, of_J = -M * l * inverse_J;
   for (int k = 0; k < 9; ++k) {
     Real& P = s.P.a[k / 3][k % 3];
     P = fma(of_d, cof.a[k / 3][k % 3], fma(of_J, s.H.a[k / 3][k % 3], P));

@@ -36,7 +36,7 @@ PartReport projected_stress_part(const Part& part, const Rows& rows, const Coeff
     }
     fastest = larger(k.material.cs / load8(step_length + n), fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    broken = broken | ~((s.det_F > 0.0) & (size - size == 0.0) & (p - p == 0.0));
+    broken = broken | ~((s.detF > 0.0) & (size - size == 0.0) & (p - p == 0.0));
   }
   return {largest(fastest), any(broken)};
 }

@@ -58,7 +58,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     if constexpr (parting == Parting::energy) add_parting(s, F, J, k.material.parting);
 
     const Vec8 zero{};
-    store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.det_F : J);
+    store_transposed(rows.W_new + row::W * n, row::W, v[0], v[1], v[2], !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.detF : J);
     for (int I = 0; I < 3; ++I) {
       store_transposed(rows.PH_new + row::PH * n + 8 * I, row::PH, s.P[0][I], s.P[1][I], s.P[2][I], zero);
       store_transposed(rows.PH_new + row::PH * n + 8 * I + 4, row::PH, s.H[0][I], s.H[1][I], s.H[2][I], zero);
@@ -69,7 +69,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     const Vec8 rate = c / load8(step_length + n);
     fastest = larger(rate, fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
-    sound = sound & (s.det_F > 0.0) & (size - size == 0.0);
+    sound = sound & (s.detF > 0.0) & (size - size == 0.0);
     if constexpr (formulation != Formulation::pF) sound = sound & (J > 0.0);
     broken = broken | ~sound;
   }

@@ -69,10 +69,10 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
   NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const ReturnMapping<Real>& r, const MaterialConstants& m) {
     Stress<Real> s;
     const Tensor<Real> cof = cofactor(F);
-    s.det_F = determinant(F, cof);
+    s.detF = determinant(F, cof);
     s.H = formulation == Formulation::pFHJ ? evolved_H : cof;
-    const Real J = formulation == Formulation::pF ? s.det_F : evolved_J;
-    const Real ln_J = logarithm(J), inverse_J = 1.0 / J, inverse_det = 1.0 / s.det_F;
+    const Real J = formulation == Formulation::pF ? s.detF : evolved_J;
+    const Real ln_J = logarithm(J), inverse_J = 1.0 / J, inverse_det = 1.0 / s.detF;
     s.Sigma_J = m.kappa * ln_J * inverse_J;
     s.d2U = m.kappa * (1.0 - ln_J) * (inverse_J * inverse_J);
     const Symmetric<Real> tau = composed(r.tau, r.b_e.axis);
@@ -82,7 +82,7 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
         s.P[i][I] = fma(t, inverse_det, s.Sigma_J * s.H[i][I]);
       }
     const Real HH = contract(cof, cof);
-    s.H2 = spectral_bounds(contract(F, F), HH, s.det_F).H2;
+    s.H2 = spectral_bounds(contract(F, F), HH, s.detF).H2;
     s.rho_c2 = speed_bound(r.q, s.H2, inverse_det * inverse_det, s.d2U, m);
     return s;
   }

@@ -12,7 +12,7 @@ struct Material<Law::linear_elastic, volumetric, isochoric, formulation> {
   NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>&, Real J, const MaterialConstants& m) {
     Stress<Real> s;
     const Tensor<Real> cof = cofactor(F);
-    s.det_F = determinant(F, cof);
+    s.detF = determinant(F, cof);
     const Real trace = F[0][0] + F[1][1] + F[2][2] - 3.0;
     const Real p = m.kappa * (formulation == Formulation::pF ? trace : J - 1.0);
     for (int i = 0; i < 3; ++i)

@@ -31,7 +31,7 @@ struct Stress {
   Tensor<Real> P;                  // [Pa] first Piola-Kirchhoff stress
   Tensor<Real> H;                  // [-] the area map that fluxes and dJ/dt use
   Real Sigma_J;                    // [Pa] conjugate of J, whose jump stabilises it
-  Real det_F;                      // [-]
+  Real detF;                      // [-]
   Real rho_c2;                     // [Pa] bound of rho0 c^2 over all directions, c the fastest reference-frame speed of the acoustic tensor
   Real d2U;                        // [Pa] U''(J); with an energy of the parting d(Sigma_J)/dJ of both
   Real H2;                         // [-] bound of the squared spectral norm of H

@@ -16,10 +16,10 @@ struct PolyconvexMaterial {
   NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const MaterialConstants& m) {
     Stress<Real> s;
     const Tensor<Real> cof = cofactor(F);
-    s.det_F = determinant(F, cof);
+    s.detF = determinant(F, cof);
     s.H = formulation == Formulation::pFHJ ? evolved_H : cof;
-    const Real J = formulation == Formulation::pF ? s.det_F : evolved_J;
-    const Real j = isochoric == Isochoric::J ? J : s.det_F;
+    const Real J = formulation == Formulation::pF ? s.detF : evolved_J;
+    const Real j = isochoric == Isochoric::J ? J : s.detF;
     const Real FF = contract(F, F), j_third = 1.0 / cube_root(j), j_inv = j_third * j_third * j_third;
     const Real Sigma_F = 2.0 * m.zeta * (j_third * j_third);
     Real dpsi_dj = -(1.0 / 3.0) * Sigma_F * FF * j_inv;
@@ -38,10 +38,10 @@ struct PolyconvexMaterial {
       s.P.a[k / 3][k % 3] = s.P.a[k / 3][k % 3] + by_cof;
     }
     const Real HH = contract(cof, cof);
-    const SpectralBounds<Real> norms = spectral_bounds(FF, HH, s.det_F);
+    const SpectralBounds<Real> norms = spectral_bounds(FF, HH, s.detF);
     s.H2 = norms.H2;
     s.d2U = U::d2U(J, m.kappa);
-    s.rho_c2 = speed_bound(FF, HH, norms, s.det_F, isochoric == Isochoric::J ? 1.0 / cube_root(s.det_F) : j_third, s.d2U, m);
+    s.rho_c2 = speed_bound(FF, HH, norms, s.detF, isochoric == Isochoric::J ? 1.0 / cube_root(s.detF) : j_third, s.d2U, m);
     return s;
   }
 
@@ -62,8 +62,8 @@ struct PolyconvexMaterial {
 
   static double energy(const Tensor<double>& F, const Tensor<double>& evolved_H, double evolved_J, const MaterialConstants& m) {
     const Tensor<double> cof = cofactor(F), H = formulation == Formulation::pFHJ ? evolved_H : cof;
-    const double det_F = determinant(F, cof), J = formulation == Formulation::pF ? det_F : evolved_J;
-    const double j = isochoric == Isochoric::J ? J : det_F, HH = contract(H, H);
+    const double detF = determinant(F, cof), J = formulation == Formulation::pF ? detF : evolved_J;
+    const double j = isochoric == Isochoric::J ? J : detF, HH = contract(H, H);
     const double iso = m.zeta * std::pow(j, -2.0 / 3) * contract(F, F) + m.xi * HH * std::sqrt(HH) / (j * j) - 3 * (m.zeta + std::sqrt(3.0) * m.xi);
     return iso + U::U(J, m.kappa);
   }

@@ -53,7 +53,7 @@ TEST(Breakdown, InversionEndsTheRunAndNamesTheNode) {
       ASSERT_GE(s.breakdown->node, 0);
       EXPECT_FALSE(sound(U_of(s, s.breakdown->node), formulation)) << "the named node is sound";
       EXPECT_EQ(reason, s.breakdown->text);
-      EXPECT_TRUE(s.breakdown->cause == "det_F" || (s.breakdown->cause == "J" && formulation != Formulation::pF)) << s.breakdown->cause;
+      EXPECT_TRUE(s.breakdown->cause == "detF" || (s.breakdown->cause == "J" && formulation != Formulation::pF)) << s.breakdown->cause;
       EXPECT_NE(reason.find("node " + std::to_string(s.breakdown->node) + " at X = ("), std::string::npos) << reason;
       char t[32];
       std::snprintf(t, sizeof t, "t = %.6e s", s.t);

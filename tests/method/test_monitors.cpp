@@ -27,7 +27,7 @@ TEST(Monitors, GiveTheirColumnsOnlyWhenAskedFor) {
   Simulation s = problem.start();
   march(s, 2);
   const auto columns = names(s);
-  for (const char* name : {"entropy_min", "entropy_sum", "entropy_negative_share", "involution_F", "involution_H", "involution_J", "min_tet_ratio", "min_det_F_over_J", "max_det_F_over_J"})
+  for (const char* name : {"entropy_min", "entropy_sum", "entropy_negative_share", "involution_F", "involution_H", "involution_J", "min_tet_ratio", "min_detF_over_J", "max_detF_over_J"})
     EXPECT_TRUE(has(columns, name)) << name;
   EXPECT_EQ(columns.size(), without + 9);
   EXPECT_EQ(history_row(s, {}).size(), columns.size());
@@ -84,13 +84,13 @@ TEST(Geometry, OfAHomogeneousDeformationIsItsDeterminant) {
   Simulation s = problem.start(2);
   Geometry g = geometry(s);
   EXPECT_EQ(g.min_tet_ratio, 1);
-  EXPECT_EQ(g.min_det_F_over_J, 1);
-  EXPECT_EQ(g.max_det_F_over_J, 1);
+  EXPECT_EQ(g.min_detF_over_J, 1);
+  EXPECT_EQ(g.max_detF_over_J, 1);
   const Tensor<double> F{{{1.2, 0.1, 0}, {0, 0.5, 0.2}, {0.05, 0, 1.1}}};
   deform(s, F);
   g = geometry(s);
   EXPECT_NEAR(g.min_tet_ratio, determinant(F, cofactor(F)), 1e-12);
-  EXPECT_NEAR(g.min_det_F_over_J, 1, 1e-15);
+  EXPECT_NEAR(g.min_detF_over_J, 1, 1e-15);
 }
 
 TEST(Geometry, SeesATetTurnedInsideOut) {

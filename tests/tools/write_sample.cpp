@@ -35,7 +35,7 @@ int main(int count, char** arguments) {
   Summary summary;
   summary.status = "breakdown";
   summary.reason = "det F = NaN at node 7, \"top\"\n";
-  summary.cause = "det_F";
+  summary.cause = "detF";
   summary.scene = "sample";
   summary.nodes = long(mesh.X.size());
   summary.tets = long(mesh.tets.size());

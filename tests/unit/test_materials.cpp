@@ -58,7 +58,7 @@ TYPED_TEST(MaterialLaws, SigmaJIsTheSlopeOfTheEnergyInJ) {
     if constexpr (TypeParam::evolves_J)  // at fixed F and H: dU/dJ, and the isochoric energy's share where that one reads J
       dE = slope([&](double h) { return TypeParam::energy({s.F, s.H, s.J + h}, this->m); });
     else if constexpr (TypeParam::finite_strain)
-      dE = slope([&](double h) { return VolumetricEnergy<TypeParam::volumetric>::U(stress.det_F + h, this->m.kappa); });
+      dE = slope([&](double h) { return VolumetricEnergy<TypeParam::volumetric>::U(stress.detF + h, this->m.kappa); });
     else
       dE = this->m.kappa * (s.F[0][0] + s.F[1][1] + s.F[2][2] - 3);
     EXPECT_NEAR(stress.Sigma_J, dE, 1e-8 * (std::abs(dE) + this->m.kappa));
@@ -70,7 +70,7 @@ TYPED_TEST(MaterialLaws, VolumetricStiffnessIsTheSlopeOfThePressure) {
   for (int k = 0; k < 50; ++k) {
     const MaterialState s = random_state<TypeParam>(random);
     const Stress<double> stress = TypeParam::stress(s, this->m);
-    const double J = TypeParam::evolves_J ? s.J : stress.det_F;
+    const double J = TypeParam::evolves_J ? s.J : stress.detF;
     double d2U = slope([&](double h) { return VolumetricEnergy<TypeParam::volumetric>::dU(J + h, this->m.kappa); });
     if constexpr (TypeParam::parting == Parting::energy)
       d2U = slope([&](double h) { return TypeParam::stress({s.F, s.H, s.J + h}, this->m).Sigma_J; });
@@ -83,7 +83,7 @@ TYPED_TEST(MaterialLaws, UndeformedStateHasNoStressAndNoEnergy) {
   const Stress<double> stress = TypeParam::stress(s, this->m);
   EXPECT_LE(largest_entry(stress.P), 1e-14 * this->m.kappa);
   EXPECT_NEAR(TypeParam::energy(s, this->m), 0, 1e-14 * this->m.kappa);
-  EXPECT_EQ(stress.det_F, 1.0);
+  EXPECT_EQ(stress.detF, 1.0);
   EXPECT_LE(largest_entry(sum(stress.H, identity<double>(), -1)), 0);
   // with the evolved J in the isochoric energy the conjugates of F, H and J balance each other without being zero
   const double conjugate = TypeParam::isochoric == Isochoric::J ? -2 * (this->m.zeta + 3 * std::sqrt(3.0) * this->m.xi) : 0.0;
@@ -144,7 +144,7 @@ TYPED_TEST(MaterialLaws, LanesHaveTheBitsOfTheScalar) {
         EXPECT_TRUE(same_bits(wide.H.a[e / 3][e % 3][n], one.H.a[e / 3][e % 3])) << "H entry " << e;
       }
       EXPECT_TRUE(same_bits(wide.Sigma_J[n], one.Sigma_J));
-      EXPECT_TRUE(same_bits(wide.det_F[n], one.det_F));
+      EXPECT_TRUE(same_bits(wide.detF[n], one.detF));
       EXPECT_TRUE(same_bits(wide.rho_c2[n], one.rho_c2));
       EXPECT_TRUE(same_bits(wide.d2U[n], one.d2U));
       EXPECT_TRUE(same_bits(wide.H2[n], one.H2));
@@ -165,6 +165,6 @@ TYPED_TEST(MaterialLaws, StressIsNaNWhereTheIsochoricEnergyHasNoVolume) {
     MaterialState s = undeformed();
     s.F[2][2] = -0.5;
     EXPECT_LT(largest_entry(TypeParam::stress(s, this->m).P), 100 * this->m.kappa);
-    EXPECT_EQ(TypeParam::stress(s, this->m).det_F, -0.5);
+    EXPECT_EQ(TypeParam::stress(s, this->m).detF, -0.5);
   }
 }

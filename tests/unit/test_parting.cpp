@@ -16,7 +16,7 @@ constexpr double M = 5;            // [Pa]
 /// What it adds to a law without stress.
 Stress<double> alone(const Tensor<double>& F, const Tensor<double>& H, double J) {
   Stress<double> s{};
-  s.H = H, s.det_F = determinant(F, cofactor(F)), s.H2 = contract(H, H);
+  s.H = H, s.detF = determinant(F, cofactor(F)), s.H2 = contract(H, H);
   add_parting(s, F, J, M);
   return s;
 }

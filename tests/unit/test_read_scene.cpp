@@ -286,7 +286,7 @@ probes = { tip = { at = [0, 0], fields = [] } }
       "directions",
       "scene.toml:27:8: boundary.1.t = [1, 2, 3]: is not a key of pressure, whose keys are p",
       "scene.toml:29:16: output.fields.1 = \"velocty\": unknown field, did you mean \"velocity\"? allowed: x | displacement | velocity | pressure | P | F | H | J | "
-      "det_F | von_mises | plastic_strain",
+      "detF | von_mises | plastic_strain",
       "scene.toml:29:27: output.fields.2 = \"x\": is named twice", "scene.toml:30:25: output.probes.tip.at = [0, 0]: must be three numbers",
       "scene.toml:30:42: output.probes.tip.fields = []: must name at least one field",
       "--set #1: abc: must be KEY=VALUE, like material.density=1000.0", "--set #2: output.compress = 10: must be at most 9"};

@@ -15,7 +15,7 @@ namespace {
 
 TEST(ReadSummary, GivesBackWhatWasWritten) {
   Summary s;
-  s.status = "breakdown", s.cause = "det_F", s.reason = "tab\t \"quoted\" \\ \u00e9";
+  s.status = "breakdown", s.cause = "detF", s.reason = "tab\t \"quoted\" \\ \u00e9";
   s.nodes = 117649, s.wall_s = 0.1 + 0.2, s.linear_momentum_drift = -1.25e-300;
   s.min_detF = std::nan("");
   s.errors["p1_L2"] = 1.0 / 3;
@@ -60,7 +60,7 @@ TEST(ReadSummary, NumberKeysAreThoseOfTheFile) {
 TEST(ReadHistory, TakesTheColumnsThatThereAre) {
   const test::TemporaryFolder folder;
   {
-    HistoryWriter writer(folder / "history.csv", {{"t", "s"}, {"kinetic", "J"}, {"odd, name", "-"}, {"min_det_F", "-"}});
+    HistoryWriter writer(folder / "history.csv", {{"t", "s"}, {"kinetic", "J"}, {"odd, name", "-"}, {"min_detF", "-"}});
     writer.row(std::vector<double>{0, 1, 2, 3});
     writer.row(std::vector<double>{0.1, 1.5, 2, std::nan("")});
   }
@@ -70,8 +70,8 @@ TEST(ReadHistory, TakesTheColumnsThatThereAre) {
     EXPECT_EQ(h.t, (std::vector<double>{0, 0.1}));
     EXPECT_EQ(h.kinetic, (std::vector<double>{1, 1.5}));
     EXPECT_TRUE(h.strain.empty());
-    ASSERT_EQ(h.min_det_F.size(), 2u);
-    EXPECT_TRUE(std::isnan(h.min_det_F[1]));
+    ASSERT_EQ(h.min_detF.size(), 2u);
+    EXPECT_TRUE(std::isnan(h.min_detF[1]));
   }
   EXPECT_TRUE(read_history(folder / "none.csv").t.empty());
 }

@@ -365,7 +365,7 @@ TEST(Scene, OutputFieldsAreKnownAndNamedOnce) {
   expect_each_accepted(
       column_scene, {{"[\"displacement\", \"pressure\"]", "[]"},
                         {"[\"displacement\", \"pressure\"]",
-                            "[\"x\", \"displacement\", \"velocity\", \"pressure\", \"P\", \"F\", \"H\", \"J\", \"det_F\", \"von_mises\"]"}});
+                            "[\"x\", \"displacement\", \"velocity\", \"pressure\", \"P\", \"F\", \"H\", \"J\", \"detF\", \"von_mises\"]"}});
 }
 
 TEST(Scene, ProbeNamesArePlain) {

@@ -31,7 +31,7 @@ StudyResults sample(const Study& s) {
   all.results.resize(4);
   for (std::size_t i = 0; i < 3; ++i) {
     RunOutcome o;
-    o.summary = RunSummary{{{"errors.p1_L2", 0.1 / (1.0 + static_cast<double>(i))}, {"volume", 1}, {"tets", 48}, {"cpu_s", 2}}, {{"status", i < 2 ? "done" : "breakdown"}, {"cause", i < 2 ? "" : "det_F"}, {"reason", i < 2 ? "" : "J < 0, \"there\""}}};
+    o.summary = RunSummary{{{"errors.p1_L2", 0.1 / (1.0 + static_cast<double>(i))}, {"volume", 1}, {"tets", 48}, {"cpu_s", 2}}, {{"status", i < 2 ? "done" : "breakdown"}, {"cause", i < 2 ? "" : "detF"}, {"reason", i < 2 ? "" : "J < 0, \"there\""}}};
     all.results[i] = assess(all.runs[i], o);
   }
   return all;

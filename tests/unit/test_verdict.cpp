@@ -30,7 +30,7 @@ TEST(Verdict, SoundNeedsNoReason) {
   EXPECT_EQ(j.verdict, Verdict::sound);
   EXPECT_EQ(j.reason, "");
   EXPECT_EQ(j.energy_excess, 0.0);
-  EXPECT_EQ(j.min_det_F, 0.9);
+  EXPECT_EQ(j.min_detF, 0.9);
   EXPECT_EQ(j.min_tet_ratio, 0.8);
 }
 
@@ -71,7 +71,7 @@ TEST(Verdict, EnergyThatIsNotANumberDoesNotPass) {
 }
 
 TEST(Verdict, GeometryOnTheWayCounts) {
-  for (auto column : {&RunHistory::min_det_F, &RunHistory::min_J, &RunHistory::min_tet_ratio}) {
+  for (auto column : {&RunHistory::min_detF, &RunHistory::min_J, &RunHistory::min_tet_ratio}) {
     RunOutcome r = sound_run();
     (r.history.*column)[1] = -0.1;
     EXPECT_EQ(judge(r, rules).verdict, Verdict::inverted);
@@ -89,7 +89,7 @@ TEST(Verdict, CheckerboardIsJudgedWhereABoundIsSet) {
 }
 
 TEST(Verdict, ABreakdownHasItsCause) {
-  const std::pair<const char*, Verdict> table[] = {{"det_F", Verdict::inverted},           {"J", Verdict::inverted},
+  const std::pair<const char*, Verdict> table[] = {{"detF", Verdict::inverted},           {"J", Verdict::inverted},
                                                    {"not_finite", Verdict::not_finite},   {"dt_collapse", Verdict::dt_collapse},
                                                    {"energy_growth", Verdict::energy_grew}, {"iteration_limit", Verdict::iteration_limit}};
   for (const auto& [cause, verdict] : table) {
@@ -100,7 +100,7 @@ TEST(Verdict, ABreakdownHasItsCause) {
 }
 
 TEST(Verdict, GrowthBeforeABreakdownIsWhatBrokeIt) {
-  RunOutcome r = broken("det_F", "det F is not positive");
+  RunOutcome r = broken("detF", "det F is not positive");
   r.history.strain = {0, 50, 1e9};
   const Judgement j = judge(r, rules);
   EXPECT_EQ(j.verdict, Verdict::energy_grew);
