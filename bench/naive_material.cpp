@@ -5,6 +5,7 @@
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
+#include "kernels/parting.hpp"
 
 namespace nanson {
 namespace {
@@ -20,7 +21,8 @@ void material_pass(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std:
     for (int k = 0; k < 9; ++k) F[k / 3][k % 3] = U.F[k / 3][k % 3];
     if (formulation == Formulation::pFHJ)
       for (int k = 0; k < 9; ++k) H[k / 3][k % 3] = H_of[a][k / 3][k % 3];
-    const Stress<double> s = Material<law, volumetric, isochoric, formulation>::stress(F, H, U.J, m);
+    Stress<double> s = Material<law, volumetric, isochoric, formulation>::stress(F, H, U.J, m);
+    if (n.scene->physics.parting > 0) add_parting(s, F, U.J, m.parting);
     for (int k = 0; k < 9; ++k) n.stress[a].P[k / 3][k % 3] = s.P[k / 3][k % 3], n.stress[a].H[k / 3][k % 3] = s.H[k / 3][k % 3];
     for (int k = 0; k < 9 && !n.dJ.empty(); ++k) n.stress[a].H[k / 3][k % 3] = dot(n.stress[a].P[k / 3], U.F[k % 3]) / U.J;
     n.W[a] = {U.v[0], U.v[1], U.v[2], !jst ? s.Sigma_J : formulation == Formulation::pF ? s.detF : U.J};

@@ -102,5 +102,10 @@ foreach(formulation pF pFJ pFHJ)
         "template PartReport stress_part<${traits}>(const Part&, const Rows&, const Coefficients&, const double*)\;"
         "template double strain_energy_part<${traits}>(const Part&, const Rows&, const Coefficients&)\;")
     endif()
+    if(law MATCHES "hencky_j2|neo_hookean|mooney_rivlin" AND volumetric STREQUAL quadratic AND isochoric STREQUAL F AND NOT formulation STREQUAL pF)
+      add_instance(stress_${law}_${volumetric}_${isochoric}_${formulation}_parting stress_part.hpp
+        "template PartReport stress_part<${traits}, Areas::undeformed, Parting::energy>(const Part&, const Rows&, const Coefficients&, const double*)\;"
+        "template double strain_energy_part<${traits}, Parting::energy>(const Part&, const Rows&, const Coefficients&)\;")
+    endif()
   endforeach()
 endforeach()

@@ -48,7 +48,7 @@ Geometry geometry(const Simulation& s) {
 std::optional<std::string> geometry_warning(const Simulation& s) {
   const Geometry g = geometry(s);
   if (g.min_detF_over_J >= 1 / parted && g.max_detF_over_J <= parted) return std::nullopt;
-  return fmt::format("J and det F part: at step {}, t = {:.6e} s, det F/J ranges from {:.3g} to {:.3g}; a finer mesh or formulation = \"pF\" may help", s.step, s.t,
+  return fmt::format("J and det F part: at step {}, t = {:.6e} s, det F/J ranges from {:.3g} to {:.3g}; a finer mesh, physics.parting or formulation = \"pF\" may help", s.step, s.t,
                      g.min_detF_over_J, g.max_detF_over_J);
 }
 

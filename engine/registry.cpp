@@ -112,22 +112,36 @@ void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
   });
 }
 
-void find_material(PartFunctions& f, Formulation formulation, bool current_areas, const MaterialSpec& m) {
+/// The energy of the parting: where J is evolved beside F, with the volumetric and isochoric energies that laws take by default.
+constexpr bool takes_parting(Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation) {
+  return evolves_J(formulation) && law != Law::linear_elastic && volumetric == Volumetric::quadratic && isochoric == Isochoric::F;
+}
+
+void find_material(PartFunctions& f, const PhysicsSpec& p, const MaterialSpec& m) {
+  const bool current_areas = has_current_areas(p.description), with_parting = p.parting > 0;
   with(m.law, [&]<Law law>() {
     with(m.volumetric, [&]<Volumetric volumetric>() {
       with(m.isochoric, [&]<Isochoric isochoric>() {
-        with(formulation, [&]<Formulation form>() {
+        with(p.formulation, [&]<Formulation form>() {
           constexpr bool own_energy = law == Law::linear_elastic || law == Law::hencky_j2;
           if constexpr (form == Formulation::pFp) {
             if constexpr (!own_energy && volumetric == Volumetric::quadratic && isochoric == Isochoric::F)
-              f.stress = projected_stress_part<law>, f.strain_energy = projected_energy_part<law>;
+              if (!with_parting) f.stress = projected_stress_part<law>, f.strain_energy = projected_energy_part<law>;
           } else if constexpr (own_energy && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) return;
           else if constexpr (form == Formulation::pF && isochoric != Isochoric::F) return;
           else {
             f.stress = stress_part<law, volumetric, isochoric, form>;
             f.strain_energy = strain_energy_part<law, volumetric, isochoric, form>;
-            if (!current_areas) return;
+            if (!current_areas && !with_parting) return;
             f.stress = nullptr;
+            if (with_parting) {
+              if constexpr (takes_parting(law, volumetric, isochoric, form))
+                if (!current_areas) {
+                  f.stress = stress_part<law, volumetric, isochoric, form, Areas::undeformed, Parting::energy>;
+                  f.strain_energy = strain_energy_part<law, volumetric, isochoric, form, Parting::energy>;
+                }
+              return;
+            }
             if constexpr (form == Formulation::pFJ && law != Law::linear_elastic) f.stress = stress_part<law, volumetric, isochoric, form, Areas::current>;
           }
         });
@@ -143,7 +157,8 @@ const char* const what_is_built =
     "pressure_jump tensor not with limited, entropy_fix or pF; jst with linear, flux_correction none, scalar, no entropy_fix; "
     "pFp with upwind, constant or linear, scalar, flux_correction none, no entropy_fix; "
     "description updated and pseudo_updated with pFJ, upwind, constant or linear, scalar, flux_correction none, boundary_flux adjoint, no entropy_fix, not linear_elastic; "
-    "several materials with upwind, pF | pFJ, constant | linear, scalar, deformed, flux_correction none, no entropy_fix, keep_angular_momentum false, description total";
+    "several materials with upwind, pF | pFJ, constant | linear, scalar, deformed, flux_correction none, no entropy_fix, keep_angular_momentum false, description total; "
+    "parting with pFJ | pFHJ, upwind, scalar, description total, one material, volumetric quadratic, isochoric F, not linear_elastic";
 
 bool takes_several_materials(const PhysicsSpec& p) {
   return p.stabilisation == Stabilisation::upwind && (p.formulation == Formulation::pF || p.formulation == Formulation::pFJ) && p.reconstruction != Reconstruction::limited &&
@@ -155,11 +170,11 @@ PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec
   PartFunctions f;
   if (materials == Materials::several) find_gradient(f, physics), find_several(f, physics);
   else find_sweeps(f, physics);
-  find_material(f, physics.formulation, has_current_areas(physics.description), material);
+  find_material(f, physics, material);
   if (!f.edge_flux)
     throw std::invalid_argument(what_is_built);
   if (!f.stress)
-    throw std::invalid_argument("this material is not built: linear_elastic and hencky_j2 take volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ; linear_elastic needs description = \"total\"");
+    throw std::invalid_argument("this material is not built: linear_elastic and hencky_j2 take volumetric = \"quadratic\" and isochoric = \"F\"; isochoric = \"J\" needs pFJ or pFHJ; linear_elastic needs description = \"total\"; parting needs pFJ or pFHJ, \"quadratic\", \"F\", \"total\", not linear_elastic");
   return f;
 }
 

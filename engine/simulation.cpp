@@ -26,6 +26,7 @@ Dual checked_dual(const Mesh& mesh) {
 Coefficients coefficients_of(const Scene& scene) {
   Coefficients k;
   k.material = constants_of(scene.material);
+  k.material.parting = scene.physics.parting * k.material.mu;
   k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
   if (scene.physics.formulation == Formulation::pFp) k.rho_cp = k.rho_cs;  // the pressure waves are the projection's
   k.adjoint = scene.physics.boundary_flux == BoundaryFlux::adjoint;

@@ -35,7 +35,7 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
   out.status = status, out.reason = reason, out.cause = s.breakdown ? s.breakdown->cause : s.stopped_by, out.scene = scene.name;
   out.formulation = word(p.formulation), out.material = material_words(scene), out.reconstruction = word(p.reconstruction);
   out.flux_correction = word(p.flux_correction), out.boundary_flux = word(p.boundary_flux), out.upwind_metric = word(p.upwind_metric);
-  out.description = word(p.description), out.stabilisation = word(p.stabilisation), out.pressure_jump = word(p.pressure_jump), out.integrator = word(scene.time.integrator), out.step = word(scene.time.step);
+  out.description = word(p.description), out.stabilisation = word(p.stabilisation), out.pressure_jump = word(p.pressure_jump), out.parting = p.parting, out.integrator = word(scene.time.integrator), out.step = word(scene.time.step);
   out.split = scene.mesh.source == MeshSource::box ? word(scene.mesh.split) : word(scene.mesh.source);
   out.nodes = s.order.nodes, out.tets = static_cast<long>(s.mesh->tets.size()), out.edges = s.edges, out.steps = s.step;
   out.t_end = s.t, out.dt_min = s.dt_min, out.dt_max = s.dt_max, out.threads = s.threads;

@@ -35,7 +35,7 @@ std::optional<double> law_flops(const MaterialSpec& s, Formulation f) {
 std::optional<Throughput> throughput(const Simulation& s, double update_bandwidth) {
   const PhysicsSpec& p = s.scene->physics;
   const bool counted = p.formulation != Formulation::pFp && p.description == Description::total && s.mixture.empty() && s.manufactured.waves.empty() &&
-                       p.reconstruction != Reconstruction::constant && !p.keep_angular_momentum;
+                       p.reconstruction != Reconstruction::constant && !p.keep_angular_momentum && p.parting == 0;
   const auto law = !counted ? std::nullopt : law_flops(s.scene->material, p.formulation);
   double seconds = 0;
   for (const SweepTime& sweep : s.clock.sweeps)

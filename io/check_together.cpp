@@ -103,6 +103,22 @@ void check_projection(Rules& r, const Scene& s) {
   r.refuse_written(p.boundary_flux != BoundaryFlux::adjoint, "physics", "boundary_flux", "formulation = \"pFp\" needs \"adjoint\": the paper's makes the pressure's operator unsymmetric");
 }
 
+/// An energy of det F/J acts where both are carried, and through the jump of Sigma_J.
+void check_parting(Rules& r, const Scene& s) {
+  const PhysicsSpec& p = s.physics;
+  if (p.parting == 0) return;
+  const auto refuse = [&](bool wrong, std::string_view why) { r.refuse_written(wrong, "physics", "parting", why); };
+  refuse(!evolves_J(p.formulation), fmt::format("needs an evolved J, which formulation = \"{}\" does not carry", word(p.formulation)));
+  refuse(p.stabilisation != Stabilisation::upwind, "acts through the jump of Sigma_J, which stabilisation = \"jst\" does not take");
+  refuse(p.pressure_jump != PressureJump::scalar, "acts through the jump of Sigma_J, which pressure_jump = \"tensor\" does not take");
+  refuse(has_current_areas(p.description), fmt::format("is not built with description = \"{}\", allowed: 0", word(p.description)));
+  refuse(!s.materials.empty(), "is not built with several materials, allowed: 0");
+  refuse(s.material.law == Law::linear_elastic, "has no meaning for linear_elastic, whose J is 1 + tr(F - I) and not det F");
+  const NotBuilt with{r, "physics.parting"};
+  with.unless(s.material.volumetric == Volumetric::quadratic, r.material(0), "volumetric", "quadratic");
+  with.unless(s.material.isochoric == Isochoric::F, r.material(0), "isochoric", "F");
+}
+
 /// What current area vectors are not built with.
 void check_current_areas(Rules& r, const Scene& s) {
   const PhysicsSpec& p = s.physics;
@@ -186,6 +202,7 @@ void check_together(Table& root, const Scene& s) {
   if (rules.sound("physics.formulation")) check_formulation(rules, s);
   if (rules.sound("physics.description")) check_current_areas(rules, s);
   if (!s.materials.empty()) check_several(rules, s);
+  if (rules.sound("physics.formulation") && rules.sound("material.law")) check_parting(rules, s);
   check_manufactured(rules, s);
   check_monitors(rules, s);
   check_laws(rules, s);

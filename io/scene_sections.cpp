@@ -112,6 +112,7 @@ void read_physics(Table& t, PhysicsSpec& p) {
   t.read("boundary_flux", p.boundary_flux);
   t.read("upwind_metric", p.upwind_metric);        // both words also with linear_elastic: there H = I and they agree
   t.read("entropy_fix", p.entropy_fix);
+  t.read("parting", p.parting, {.from = 0});
   t.read("keep_angular_momentum", p.keep_angular_momentum);
   const bool corrected = t.sound("flux_correction") && p.flux_correction != FluxCorrection::none;
   if (corrected && t.sound("reconstruction") && p.reconstruction == Reconstruction::constant)

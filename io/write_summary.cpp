@@ -106,7 +106,7 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
   toml::table table{
       {"status", s.status}, {"reason", s.reason}, {"cause", s.cause}, {"scene", s.scene}, {"formulation", s.formulation}, {"material", s.material},
       {"description", s.description}, {"stabilisation", s.stabilisation}, {"reconstruction", s.reconstruction}, {"flux_correction", s.flux_correction},
-      {"boundary_flux", s.boundary_flux}, {"upwind_metric", s.upwind_metric}, {"pressure_jump", s.pressure_jump}, {"integrator", s.integrator},
+      {"boundary_flux", s.boundary_flux}, {"upwind_metric", s.upwind_metric}, {"pressure_jump", s.pressure_jump}, {"parting", number(s.parting)}, {"integrator", s.integrator},
       {"step", s.step}, {"split", s.split}, {"nodes", s.nodes}, {"tets", s.tets}, {"edges", s.edges}, {"steps", s.steps}, {"t_end", number(s.t_end)},
       {"dt_min", number(s.dt_min)}, {"dt_max", number(s.dt_max)}, {"threads", s.threads}, {"wall_s", number(s.wall_s)}, {"cpu_s", number(s.cpu_s)},
       {"setup_s", number(s.setup_s)}, {"ns_per_node_step", number(s.ns_per_node_step)}, {"bytes_per_node", number(s.bytes_per_node)},

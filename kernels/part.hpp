@@ -157,7 +157,7 @@ template <Formulation, bool corrected, Areas = Areas::undeformed, Materials = Ma
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
-template <Law, Volumetric, Isochoric, Formulation, Areas = Areas::undeformed>
+template <Law, Volumetric, Isochoric, Formulation, Areas = Areas::undeformed, Parting = Parting::none>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 template <Law>
@@ -168,7 +168,7 @@ template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix
 double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].
-template <Law, Volumetric, Isochoric, Formulation>
+template <Law, Volumetric, Isochoric, Formulation, Parting = Parting::none>
 double strain_energy_part(const Part&, const Rows&, const Coefficients&);
 template <Law>
 double projected_energy_part(const Part&, const Rows&, const Coefficients&);

@@ -6,6 +6,7 @@
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
 #include "kernels/part.hpp"
+#include "kernels/parting.hpp"
 #include "kernels/stress_rows.hpp"
 
 namespace nanson {
@@ -33,7 +34,7 @@ NANSON_INLINE Tensor<Vec8> cauchy_stress(const Tensor<Vec8>& P, const Tensor<Vec
 
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, bool commits, Areas areas>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting, bool commits>
 PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   using Law_ = Material<law, volumetric, isochoric, formulation>;
   const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
@@ -64,6 +65,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     } else {
       s = Law_::stress(F, H, J, k.material);
     }
+    if constexpr (parting == Parting::energy) add_parting(s, F, J, k.material.parting);
 
     store_rows(rows, n, v, !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.detF : J, s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);
@@ -82,14 +84,14 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
   return {largest(fastest), any(broken), work};
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting>
 PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   if constexpr (law == Law::hencky_j2)
-    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, true, areas>(part, rows, k, step_length);
-  return stress_sweep<law, volumetric, isochoric, formulation, false, areas>(part, rows, k, step_length);
+    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, true>(part, rows, k, step_length);
+  return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, false>(part, rows, k, step_length);
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Parting parting>
 double strain_energy_part(const Part& part, const Rows& rows, const Coefficients& k) {
   double sum = 0;
   for (int n = part.node_begin; n < part.node_end; ++n) {
@@ -106,6 +108,7 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
     } else {
       density = Law_::energy(F, H, U[3], k.material);
     }
+    if constexpr (parting == Parting::energy) density += parting_energy(F, U[3], k.material.parting);
     sum += density / rows.X[row::X * n + 3];
   }
   return sum;

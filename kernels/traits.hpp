@@ -17,6 +17,7 @@ enum class FluxCorrection { none, pressure, full };
 enum class BoundaryFlux { adjoint, paper };
 enum class UpwindMetric { deformed, paper };       // c_p max(1, |H N|) | c_p
 enum class EntropyFix { none, edge };              // edge: no stabilisation against the plain jump
+enum class Parting { none, energy };                // what ties J to det F: nothing but D^J | (M/2) (ln(det F/J))^2 too
 enum class Materials { one, several };             // the same density and impedances everywhere | a density a node, impedances an edge
 
 constexpr auto words(Law) { return std::array<std::string_view, 4>{"linear_elastic", "neo_hookean", "mooney_rivlin", "hencky_j2"}; }
@@ -30,6 +31,7 @@ constexpr auto words(Reconstruction) { return std::array<std::string_view, 3>{"c
 constexpr auto words(FluxCorrection) { return std::array<std::string_view, 3>{"none", "pressure", "full"}; }
 constexpr auto words(BoundaryFlux) { return std::array<std::string_view, 2>{"adjoint", "paper"}; }
 constexpr auto words(EntropyFix) { return std::array<std::string_view, 2>{"none", "edge"}; }
+constexpr auto words(Parting) { return std::array<std::string_view, 2>{"none", "energy"}; }
 constexpr auto words(UpwindMetric) { return std::array<std::string_view, 2>{"deformed", "paper"}; }
 
 constexpr bool has_current_areas(Description d) { return d != Description::total; }

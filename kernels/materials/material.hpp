@@ -21,6 +21,7 @@ struct MaterialConstants {
   double mu = 0, kappa = 0;        // [Pa] shear and bulk modulus
   double zeta = 0, xi = 0;         // [Pa] of the isochoric energy (paper, eq. 14)
   double cp = 0, cs = 0;           // [m/s] undeformed wave speeds (paper, eq. 39)
+  double parting = 0;              // [Pa] M of the energy of the parting of det F from J, 0 without
   Hardening hardening;             // hencky_j2
 };
 
@@ -32,7 +33,7 @@ struct Stress {
   Real Sigma_J;                    // [Pa] conjugate of J, whose jump stabilises it
   Real detF;                      // [-]
   Real rho_c2;                     // [Pa] bound of rho0 c^2 over all directions, c the fastest reference-frame speed of the acoustic tensor
-  Real d2U;                        // [Pa] U''(J)
+  Real d2U;                        // [Pa] U''(J); with an energy of the parting d(Sigma_J)/dJ of both
   Real H2;                         // [-] bound of the squared spectral norm of H
 };
 

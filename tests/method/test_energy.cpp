@@ -133,6 +133,23 @@ TEST(EnergyAudit, ClosesForEveryLaw) {
         }
 }
 
+/// The energy that ties J to det F is booked, and pays for itself where they part: a hard twist.
+TEST(EnergyAudit, ClosesWithAnEnergyOfTheParting) {
+  for (auto law : {Law::neo_hookean, Law::mooney_rivlin})
+    for (auto formulation : {Formulation::pFJ, Formulation::pFHJ}) {
+      Scene scene = driven_column();
+      scene.material.law = law, scene.material.xi = law == Law::mooney_rivlin ? 6e5 : 0, scene.initial.twist_omega = 200;
+      scene.physics.formulation = formulation, scene.physics.parting = 1, scene.time.integrator = Integrator::ssp_rk3, scene.time.cfl = 0.2, scene.time.end = 0.02;
+      const Audit whole = audit(scene);
+      scene.time.cfl /= 2;
+      const Audit half = audit(scene);
+      const std::string what = fmt::format("{}_{}", word(law), word(formulation));
+      RecordProperty(what, fmt::format("{:.2e} / {:.2e} = {:.2f}", whole.worst_closure, half.worst_closure, whole.worst_closure / half.worst_closure));
+      EXPECT_LT(whole.worst_closure, 1e-3) << what;
+      EXPECT_GT(whole.worst_closure / half.worst_closure, 6.5) << what;
+    }
+}
+
 /// Edges between parts stand in both, and must be counted once.
 TEST(EnergyAudit, ClosesAcrossTheCutEdgesOfParts) {
   Scene scene = driven_column();

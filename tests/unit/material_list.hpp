@@ -9,6 +9,7 @@
 #include "kernels/materials/linear_elastic.hpp"
 #include "kernels/materials/mooney_rivlin.hpp"
 #include "kernels/materials/neo_hookean.hpp"
+#include "kernels/parting.hpp"
 #include "tests/unit/random_tensor.hpp"
 
 namespace nanson::test {
@@ -19,28 +20,40 @@ struct MaterialState {
   double J;
 };
 
-template <Law law_, Volumetric volumetric_, Isochoric isochoric_, Formulation formulation_>
+template <Law law_, Volumetric volumetric_, Isochoric isochoric_, Formulation formulation_, Parting parting_ = Parting::none>
 struct Built {
   static constexpr Law law = law_;
   static constexpr Volumetric volumetric = volumetric_;
   static constexpr Isochoric isochoric = isochoric_;
   static constexpr Formulation formulation = formulation_;
+  static constexpr Parting parting = parting_;
   static constexpr bool finite_strain = law != Law::linear_elastic, evolves_J = formulation != Formulation::pF, evolves_H = formulation == Formulation::pFHJ;
   using Law_ = Material<law, volumetric, isochoric, formulation>;
 
-  [[gnu::noinline]] static Stress<double> stress(const MaterialState& s, const MaterialConstants& m) { return Law_::stress(s.F, s.H, s.J, m); }
+  [[gnu::noinline]] static Stress<double> stress(const MaterialState& s, const MaterialConstants& m) { return stress(s.F, s.H, s.J, m); }
   [[gnu::noinline]] static Stress<Vec8> stress(const Tensor<Vec8>& F, const Tensor<Vec8>& H, Vec8 J, const MaterialConstants& m) {
-    return Law_::stress(F, H, J, m);
+    return stress<Vec8>(F, H, J, m);
   }
-  [[gnu::noinline]] static double energy(const MaterialState& s, const MaterialConstants& m) { return Law_::energy(s.F, s.H, s.J, m); }
+  [[gnu::noinline]] static double energy(const MaterialState& s, const MaterialConstants& m) {
+    const double law = Law_::energy(s.F, s.H, s.J, m);
+    return parting == Parting::energy ? law + parting_energy(s.F, s.J, m.parting) : law;
+  }
   static std::string name() {
-    return std::string(word(law)) + "_" + std::string(word(volumetric)) + "_" + std::string(word(isochoric)) + "_" + std::string(word(formulation));
+    return std::string(word(law)) + "_" + std::string(word(volumetric)) + "_" + std::string(word(isochoric)) + "_" + std::string(word(formulation)) + (parting == Parting::energy ? "_parting" : "");
+  }
+
+ private:
+  template <class Real>
+  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& H, Real J, const MaterialConstants& m) {
+    Stress<Real> s = Law_::stress(F, H, J, m);
+    if constexpr (parting == Parting::energy) add_parting(s, F, J, m.parting);
+    return s;
   }
 };
 
 inline MaterialConstants constants(bool with_xi) {
   MaterialConstants m;
-  m.rho = 1100, m.mu = 7, m.kappa = 31, m.xi = with_xi ? 0.4 : 0.0;
+  m.rho = 1100, m.mu = 7, m.kappa = 31, m.parting = 9, m.xi = with_xi ? 0.4 : 0.0;
   m.zeta = 0.5 * (m.mu - 3 * std::sqrt(3.0) * m.xi);
   m.cp = std::sqrt((m.kappa + 4.0 / 3 * m.mu) / m.rho), m.cs = std::sqrt(m.mu / m.rho);
   return m;
@@ -67,6 +80,9 @@ using pFJ = Built<law, v, i, Formulation::pFJ>;
 template <Law law, Volumetric v, Isochoric i>
 using pFHJ = Built<law, v, i, Formulation::pFHJ>;
 
+template <Law law, Formulation f>
+using Parted = Built<law, Volumetric::quadratic, Isochoric::F, f, Parting::energy>;
+
 using enum Law;
 using enum Volumetric;
 using AllMaterials = ::testing::Types<
@@ -78,7 +94,8 @@ using AllMaterials = ::testing::Types<
     pF<mooney_rivlin, quadratic, Isochoric::F>, pFJ<mooney_rivlin, quadratic, Isochoric::F>, pFHJ<mooney_rivlin, quadratic, Isochoric::F>,
     pF<mooney_rivlin, barrier, Isochoric::F>, pFJ<mooney_rivlin, barrier, Isochoric::F>, pFHJ<mooney_rivlin, barrier, Isochoric::F>,
     pFJ<mooney_rivlin, quadratic, Isochoric::J>, pFHJ<mooney_rivlin, quadratic, Isochoric::J>,
-    pFJ<mooney_rivlin, barrier, Isochoric::J>, pFHJ<mooney_rivlin, barrier, Isochoric::J>>;
+    pFJ<mooney_rivlin, barrier, Isochoric::J>, pFHJ<mooney_rivlin, barrier, Isochoric::J>,
+    Parted<neo_hookean, Formulation::pFJ>, Parted<neo_hookean, Formulation::pFHJ>, Parted<mooney_rivlin, Formulation::pFJ>, Parted<mooney_rivlin, Formulation::pFHJ>>;
 
 struct MaterialName {
   template <class Material_>

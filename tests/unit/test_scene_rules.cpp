@@ -210,6 +210,26 @@ TEST(Scene, WithoutAnEvolvedJNothingAsksForOne) {
       with("[physics]\nformulation = \"pFHJ\"\npressure_jump = \"tensor\"\n[initial]\nfield = \"standing_wave\"\namplitude = 1\nJ = \"det\"\n"));
 }
 
+TEST(Scene, PartingNeedsAJThatItsEnergyCanMove) {
+  const auto rubber = [](const std::string& lines) { return edited(with("[physics]\nparting = 1\n" + lines), "linear_elastic", "neo_hookean"); };
+  const auto refused = [&](const std::string& lines, const std::string& why) { expect_error(rubber(lines), "scene.toml:12:11: physics.parting = 1: " + why); };
+  refused("formulation = \"pF\"\n", "needs an evolved J, which formulation = \"pF\" does not carry");
+  refused("formulation = \"pFp\"\n", "needs an evolved J, which formulation = \"pFp\" does not carry");
+  refused("stabilisation = \"jst\"\n", "acts through the jump of Sigma_J, which stabilisation = \"jst\" does not take");
+  refused("pressure_jump = \"tensor\"\n", "acts through the jump of Sigma_J, which pressure_jump = \"tensor\" does not take");
+  refused("description = \"updated\"\n", "is not built with description = \"updated\", allowed: 0");
+  expect_error(with("[physics]\nparting = 1\n"), "scene.toml:12:11: physics.parting = 1: has no meaning for linear_elastic");
+  expect_error(edited(rubber(""), "\"neo_hookean\"", "\"neo_hookean\"\nvolumetric = \"barrier\""),
+      "scene.toml:6:14: material.volumetric = \"barrier\": is not built with physics.parting, allowed: quadratic");
+  expect_error(edited(rubber(""), "\"neo_hookean\"", "\"neo_hookean\"\nisochoric = \"J\""),
+      "scene.toml:6:13: material.isochoric = \"J\": is not built with physics.parting, allowed: F");
+  expect_error(edited(rubber(""), "parting = 1", "parting = -1"), "scene.toml:12:11: physics.parting = -1: must be at least 0");
+  expect_error(edited(rubber(""), "parting = 1", "parting = inf"), "scene.toml:12:11: physics.parting = inf: must be finite");
+  for (const char* lines : {"", "formulation = \"pFHJ\"\n", "flux_correction = \"full\"\n", "reconstruction = \"limited\"\n", "keep_angular_momentum = true\n"}) expect_valid(rubber(lines));
+  for (const char* lines : {"formulation = \"pF\"\n", "stabilisation = \"jst\"\n", "description = \"updated\"\n"}) expect_valid(edited(rubber(lines), "parting = 1", "parting = 0"));
+  EXPECT_EQ(read_text(rubber("")).scene.physics.parting, 1.0);
+}
+
 TEST(Scene, FluxCorrectionNeedsGradients) {
   expect_error(with("[physics]\nreconstruction = \"constant\"\nflux_correction = \"pressure\"\n"),
       "scene.toml:13:19: physics.flux_correction = \"pressure\": needs reconstruction = \"linear\"");

@@ -36,9 +36,9 @@ struct StressPart : ::testing::Test {
 
   StressPart() {
     PhysicsSpec physics;
-    physics.formulation = Material_::formulation;
+    physics.formulation = Material_::formulation, physics.parting = Material_::parting == Parting::energy ? 0.7 : 0;
     functions = find_part_functions(physics, spec);
-    k.material = constants_of(spec);
+    k.material = constants_of(spec), k.material.parting = physics.parting * k.material.mu;
     k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
     for (int n = 0; n < nodes; ++n) set(n, undeformed());
   }
@@ -190,12 +190,14 @@ TEST(Registry, BuildsTheMaterialsThatAreTestedAndNoOthers) {
   for (const Law law : {Law::linear_elastic, Law::neo_hookean, Law::mooney_rivlin, Law::hencky_j2})
     for (const Volumetric volumetric : {Volumetric::quadratic, Volumetric::barrier})
       for (const Isochoric isochoric : {Isochoric::F, Isochoric::J})
-        for (const Formulation formulation : {Formulation::pF, Formulation::pFJ, Formulation::pFHJ}) {
+        for (const auto& [formulation, parting] : {std::pair(Formulation::pF, 0.0), std::pair(Formulation::pFJ, 0.0), std::pair(Formulation::pFHJ, 0.0), std::pair(Formulation::pF, 1.0),
+                                                  std::pair(Formulation::pFJ, 1.0), std::pair(Formulation::pFHJ, 1.0), std::pair(Formulation::pFp, 1.0)}) {
           PhysicsSpec physics;
-          physics.formulation = formulation;
+          physics.formulation = formulation, physics.parting = parting;
           const bool own_energy = law == Law::linear_elastic || law == Law::hencky_j2;
           const bool senseless = (own_energy && (volumetric == Volumetric::barrier || isochoric == Isochoric::J)) ||
-                                 (formulation == Formulation::pF && isochoric == Isochoric::J);
+                                 (formulation == Formulation::pF && isochoric == Isochoric::J) ||
+                                 (parting > 0 && (!evolves_J(formulation) || law == Law::linear_elastic || volumetric == Volumetric::barrier || isochoric == Isochoric::J));
           const auto find = [&] { return find_part_functions(physics, material_spec(law, volumetric, isochoric)); };
           if (senseless) {
             EXPECT_THROW(find(), std::invalid_argument);
@@ -204,7 +206,7 @@ TEST(Registry, BuildsTheMaterialsThatAreTestedAndNoOthers) {
             ++built;
           }
         }
-  const int with_own_tests = 3;  // hencky_j2 (test_hencky_j2.cpp, test_plastic_part.cpp) in three formulations
+  const int with_own_tests = 5;  // hencky_j2 (test_hencky_j2.cpp, test_plastic_part.cpp) in three formulations, in two with an energy of the parting
   EXPECT_EQ(built, with_own_tests + std::tuple_size_v<decltype([]<class... T>(::testing::Types<T...>) { return std::tuple<T...>{}; }(AllMaterials{}))>);
 }
 

@@ -17,7 +17,7 @@ TEST(WriteSummary, HasAllKeys) {
   const std::string json = summary_json({}, from);
   for (const char* key :
        {"status", "reason", "cause", "scene", "formulation", "material", "description", "stabilisation", "reconstruction", "flux_correction", "boundary_flux",
-        "upwind_metric", "pressure_jump", "integrator", "step", "split", "nodes", "tets", "edges", "steps", "t_end", "dt_min", "dt_max", "threads", "wall_s",
+        "upwind_metric", "pressure_jump", "parting", "integrator", "step", "split", "nodes", "tets", "edges", "steps", "t_end", "dt_min", "dt_max", "threads", "wall_s",
         "cpu_s", "setup_s", "ns_per_node_step", "bytes_per_node", "peak_bytes", "peak_bytes_per_node", "fields_left_out", "state_hash", "energy", "initial", "kinetic", "strain", "external_work",
         "dissipated", "angular_momentum_work", "closure", "lost_at_start", "mass", "volume", "keep_angular_momentum", "angular_momentum_drift", "linear_momentum_drift", "min_detF", "max_detF", "errors",
         "probes", "setup", "sweeps", "checkerboard", "projection", "throughput", "provenance", "version", "commit", "compiler", "flags", "cpu", "host"})
