@@ -90,6 +90,7 @@ struct Bed {
   Colours colours = colour(s.order);
   Order twice = both_ways(s.order);
   Aligned<double> edge_array = Aligned<double>(4 * (static_cast<std::size_t>(s.order.out.back()) + 8 * s.order.parts.size()), 0.0);
+  Aligned<double> corner_array = Aligned<double>(4 * s.order.corner_b.size(), 0.0);
   Aligned<double> force = Aligned<double>(4 * static_cast<std::size_t>(s.order.rows), 0.0);
   std::vector<Aligned<double>> large = std::vector<Aligned<double>>(2, Aligned<double>(4 * static_cast<std::size_t>(twice.most_edges + 8), 0.0));  // one a thread
   Rows rows = stage_rows(s.state, 0, 1);
@@ -169,6 +170,7 @@ void node_centric(Bed& bed) {
 void global_edge_array(Bed& bed) {
   const auto placed = [&](int p, Scratch scratch) {
     scratch.edge = bed.edge_array.data() + 4 * static_cast<std::ptrdiff_t>(bed.part(p).edge_begin + 8 * p);
+    scratch.corner = bed.corner_array.data() + 4 * static_cast<std::ptrdiff_t>(bed.part(p).corner_begin);
     return scratch;
   };
   bed.gradient(bed.s.order);
