@@ -1,6 +1,7 @@
 // Byte and flop models of the sweeps, from the traits alone.
 // Bytes: what a sweep must move between DRAM and the caches when every row is fetched once. A row that is written without having been read counts twice, because its
-// cache lines are fetched first; neighbours' rows count once a sweep (parts and their halo stay in cache); part-local buffers stay in L2 and do not count.
+// cache lines are fetched first (once where it is written past the caches: W and PH from `streaming_nodes` on); neighbours' rows count once a sweep (parts and their
+// halo stay in cache); part-local buffers stay in L2 and do not count.
 // Flops: additions, multiplications, divisions, roots and comparisons of the formulas, an fma two, padding lanes none. Edges between parts count in both.
 #pragma once
 #include "engine/order.hpp"
@@ -93,7 +94,8 @@ inline Work accumulate_update_work(const Carried& c, const Sizes& s, bool alone)
 
 /// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by engine/counted.hpp.
 inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {
-  return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + 2 * bytes::W + 2 * bytes::PH), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
+  const double written = s.nodes >= streaming_nodes ? 1 : 2;
+  return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + written * (bytes::W + bytes::PH)), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
 }
 
 /// dissipation_part: reads what edge_flux reads; each edge between parts is counted once and skipped once.

@@ -34,5 +34,15 @@ TEST(Work, AStepIsItsStagesAndWhatIsLeftOutCostsNothing) {
   EXPECT_DOUBLE_EQ(step_work(pFJ, s, 150, 2).flops - step_work(pFJ, s, 100, 2).flops, 2 * 50 * 100);
 }
 
+TEST(Work, RowsThatAreWrittenPastTheCachesAreNotFetchedFirst) {
+  const auto bytes_per_node = [](int nodes) {
+    Order o;
+    o.nodes = nodes, o.out = {0}, o.in = {0}, o.corner = {0};
+    return stress_work(Carried(PhysicsSpec{}), Sizes(o), 0, true).bytes / nodes;
+  };
+  EXPECT_DOUBLE_EQ(bytes_per_node(streaming_nodes), 8 * (row::U + 1 + row::W + row::PH));
+  EXPECT_DOUBLE_EQ(bytes_per_node(streaming_nodes - 1), 8 * (row::U + 1 + 2 * (row::W + row::PH)));
+}
+
 }  // namespace
 }  // namespace nanson
