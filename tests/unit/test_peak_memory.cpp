@@ -17,7 +17,7 @@ TEST(PeakMemory, GrowsByWhatIsTouchedAndStaysWhenItIsFreed) {
   const auto after = peak_bytes();
   ASSERT_TRUE(after);
   EXPECT_GE(*after, static_cast<double>(bytes));
-  EXPECT_LT(*after, *before + static_cast<double>(bytes) + 16e6);
+  EXPECT_LT(*after, *before + 1.25 * static_cast<double>(bytes) + 16e6);  // AddressSanitizer keeps a byte for every eight
 }
 
 }  // namespace
