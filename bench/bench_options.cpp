@@ -30,6 +30,12 @@ Scene with(Description description) {
   return scene;
 }
 
+Scene with(FluxCorrection correction) {
+  Scene scene = column();
+  scene.physics.flux_correction = correction;
+  return scene;
+}
+
 Scene layers() {
   Scene scene = column();
   scene.mesh.regions = {Axis::z, {3.0}, {"low", "high"}};
@@ -85,7 +91,8 @@ void time_option(benchmark::State& state, const Scene& scene) {
 }  // namespace
 
 void register_step_options() {
-  for (const auto& [name, scene] : {std::pair("updated", with(Description::updated)), std::pair("pseudo_updated", with(Description::pseudo_updated)), std::pair("several_materials", layers())})
+  for (const auto& [name, scene] : {std::pair("pressure", with(FluxCorrection::pressure)), std::pair("full", with(FluxCorrection::full)), std::pair("updated", with(Description::updated)),
+                                    std::pair("pseudo_updated", with(Description::pseudo_updated)), std::pair("several_materials", layers())})
     benchmark::RegisterBenchmark(fmt::format("option/{}", name).c_str(), [scene = scene](benchmark::State& state) { time_option(state, scene); })
         ->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1);
 }

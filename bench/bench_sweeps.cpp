@@ -28,6 +28,7 @@ struct Bed {
     PhysicsSpec& all = scene.physics;  // not a combination that is built, but every row is there
     all.stabilisation = Stabilisation::jst, all.formulation = Formulation::pFHJ, all.pressure_jump = PressureJump::tensor, all.flux_correction = FluxCorrection::full;
     s.state = make_state(scene, mesh, make_dual(mesh), s.order, s.boundary);
+    s.state.q.assign(s.order.C[0].size(), 0.0);
     deform();
   }
 

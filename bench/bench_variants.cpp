@@ -120,9 +120,9 @@ void each_flux(const Bed& bed, const EdgeArrays& edges, int begin, int end, Use 
   alignas(64) double flux[4 * edge_block];
   for (int from = begin; from < end; from += edge_block) {
     const int count = std::min(end - from, edge_block);
-    gather_edges<linear, none, PressureJump::scalar, EntropyFix::none, Areas::undeformed>(from, from + count, edges, bed.rows, bed.k.theta, block, flux);
+    gather_edges<linear, none, false, PressureJump::scalar, EntropyFix::none, Areas::undeformed>(from, from + count, edges, bed.rows, bed.k.theta, block, flux);
     for (int at = 0; at < count; at += 8)
-      finish_edges<none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, flux + 4 * at);
+      finish_edges<none, false, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, nullptr, flux + 4 * at);
     for (int at = 0; at < count; ++at) use(from + at, load4(flux + 4 * at));
   }
 }
@@ -136,7 +136,7 @@ void finish_part(Bed& bed, const Part& p, const Scratch& scratch) {
   for (int n = p.node_begin; n < p.node_end; ++n)
     for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g) add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
   constrain<Materials::one>(p, bed.rows, bed.k, bed.s.boundary.constraints.data(), bed.s.state.reactions.data(), scratch);
-  update<Formulation::pFJ, false, Areas::undeformed, Materials::one>(p, bed.rows, bed.k, scratch);
+  update<Formulation::pFJ, GradientCorrection::none, Areas::undeformed, Materials::one>(p, bed.rows, bed.k, scratch);
 }
 
 void part_buffer(Bed& bed) {

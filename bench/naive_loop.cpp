@@ -68,24 +68,25 @@ void add_gradients(const NaiveLoop& n, Value value, std::vector<Table<count, 3>>
   }
 }
 
-/// Q_a = P_a + theta/(4 Omega_a) sum_b [(P_a - P_b + D . grad P_a) C_ab] (x) D (method, section 14).
+/// dP_a = theta/(4 Omega_a) sum_b [(P_a - P_b + D . grad P_a) C_ab] (x) D (method, section 14).
 void correct_stress(NaiveLoop& n) {
-  std::fill(n.Q.begin(), n.Q.end(), Table<3, 3>{});
+  std::fill(n.dP.begin(), n.dP.end(), Table<3, 3>{});
   const auto add = [&](int a, int b, const double (&C)[3]) {
     double D[3];
     for (int I = 0; I < 3; ++I) D[I] = n.X[b][I] - n.X[a][I];
     for (int i = 0; i < 3; ++i) {
       double y = 0;
       for (int I = 0; I < 3; ++I) y += (n.stress[a].P[i][I] - n.stress[b].P[i][I] + dot(D, n.GP[a][3 * i + I].data())) * C[I];
-      for (int I = 0; I < 3; ++I) n.Q[a][i][I] += y * D[I];
+      for (int I = 0; I < 3; ++I) n.dP[a][i][I] += y * D[I];
     }
   };
   for (const NaiveEdge& e : n.edges) {
     add(e.a, e.b, e.C);
     add(e.b, e.a, {-e.C[0], -e.C[1], -e.C[2]});
   }
-  for (std::size_t a = 0; a < n.Q.size(); ++a)
-    for (int m = 0; m < 9; ++m) n.Q[a][m / 3][m % 3] = n.stress[a].P[m / 3][m % 3] + theta / (4 * n.volume[a]) * n.Q[a][m / 3][m % 3];
+  for (std::size_t a = 0; a < n.dP.size(); ++a)
+    for (auto& column : n.dP[a])
+      for (double& dP : column) dP *= theta / (4 * n.volume[a]);
 }
 
 /// Barth-Jespersen: the largest phi in [0, 1] for which W + phi G . D/2 stays between the values around at the midpoint of every edge (method, section 4).
@@ -129,7 +130,7 @@ void gradient_pass(NaiveLoop& n) {
   if (!n.lambda.empty()) pseudo_laplacian(n);
   else if (!n.L.empty()) limit(n);
   if (!n.GP.empty()) add_gradients<9>(n, [&](int a) { return &n.stress[a].P[0][0]; }, n.GP);
-  if (!n.Q.empty()) correct_stress(n);
+  if (!n.dP.empty() && !n.takes_lagged) correct_stress(n);
 }
 
 /// Average of a tensor of both ends times C: traction from P, deformed area vector c from H (eq. 35, 38).
@@ -282,8 +283,9 @@ void current_boundary_flux(NaiveLoop& n) {
 template <class Choice>
 void flux_pass(NaiveLoop& n, Choice choice) {
   std::fill(n.force.begin(), n.force.end(), std::array<double, 4>{});
-  std::fill(n.dG.begin(), n.dG.end(), Table<3, 3>{});
-  for (const NaiveEdge& e : choice.current() ? n.current_edges : n.edges) {
+  if (!n.takes_lagged) std::fill(n.dG.begin(), n.dG.end(), Table<3, 3>{});
+  const auto& edges = choice.current() ? n.current_edges : n.edges;
+  for (const NaiveEdge& e : edges) {
     const NaiveStress &s_a = n.stress[e.a], &s_b = n.stress[e.b];
     const double D[3] = {n.X[e.b][0] - n.X[e.a][0], n.X[e.b][1] - n.X[e.a][1], n.X[e.b][2] - n.X[e.a][2]};
     double t[3], c[3];
@@ -296,11 +298,14 @@ void flux_pass(NaiveLoop& n, Choice choice) {
     if (choice.correction() != FluxCorrection::none) {
       double q[4];
       for (int k = 0; k < 4; ++k) q[k] = theta / 4 * (dot(n.G[e.a][k].data(), D) - dot(n.G[e.b][k].data(), D));
+      const bool pressure = choice.correction() == FluxCorrection::pressure;
+      double& q_lagged = n.q[static_cast<std::size_t>(&e - edges.data())];
+      if (!n.takes_lagged) q_lagged = q[3];
       for (int i = 0; i < 3; ++i) {
-        if (choice.correction() == FluxCorrection::pressure) f[i] += q[3] * c[i];
-        else
-          for (int I = 0; I < 3; ++I) f[i] += 0.5 * (n.Q[e.a][i][I] - s_a.P[i][I] + n.Q[e.b][i][I] - s_b.P[i][I]) * e.C[I];
+        if (pressure) f[i] += q_lagged * c[i];
+        if (n.takes_lagged) continue;
         for (int I = 0; I < 3; ++I) {
+          if (choice.correction() == FluxCorrection::full) f[i] += 0.5 * (n.dP[e.a][i][I] + n.dP[e.b][i][I]) * e.C[I];
           n.dG[e.a][i][I] += q[i] * e.C[I];
           n.dG[e.b][i][I] -= q[i] * e.C[I];
         }
@@ -315,7 +320,7 @@ void flux_pass(NaiveLoop& n, Choice choice) {
 
 /// Adjoint boundary flux (P_a - (6 P_a + P_b + P_c)/8) C_gamma (method, section 3), tractions, following pressures, body force.
 void boundary_pass(NaiveLoop& n, const std::vector<NaiveNode>& U, double t) {
-  const auto P = [&](int a, int i, int I) { return n.Q.empty() ? n.stress[a].P[i][I] : n.Q[a][i][I]; };
+  const auto P = [&](int a, int i, int I) { return n.stress[a].P[i][I] + (n.dP.empty() || n.takes_lagged ? 0.0 : n.dP[a][i][I]); };
   if (has_current_areas(n.scene->physics.description)) current_boundary_flux(n);
   else if (n.scene->physics.boundary_flux == BoundaryFlux::adjoint)
     for (const NaiveCorner& c : n.corners)
@@ -400,6 +405,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   const bool second = n.scene->time.integrator == Integrator::tvd_rk2, last = number == (second ? 1 : 2);
   Weights w = second ? rk2[number] : rk3[number];
   w.dt = dt;
+  n.takes_lagged = number == 0 && n.has_lagged;
   auto &from = number == 0 ? n.now : n.stage, &to = last ? n.now : n.stage;
   auto &H_from = number == 0 ? n.H_now : n.H_stage, &H_to = last ? n.H_now : n.H_stage;
   gradient_pass(n);
@@ -412,6 +418,9 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   hold(n, dt);
   update_pass(n, from, to, H_from, H_to, w);
   naive_material(n, to, H_to);
+  n.has_lagged = second && last && !n.dG.empty();
+  for (std::size_t a = 0; n.has_lagged && a < n.dP.size(); ++a)
+    for (int m = 0; m < 9; ++m) n.stress[a].P[m / 3][m % 3] += n.dP[a][m / 3][m % 3];
 }
 
 void naive_advance(NaiveLoop& n, double dt) {

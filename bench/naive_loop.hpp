@@ -48,7 +48,8 @@ struct NaiveLoop {
   std::vector<NaiveStress> stress;
   std::vector<Table<4, 3>> G;                      // grad of {v, Sigma_J}
   std::vector<Table<9, 3>> GP;                     // grad of P, tensor jump or full correction
-  std::vector<Table<3, 3>> Q;                      // corrected stress, full correction
+  std::vector<double> q;                           // [Pa] of Sigma_J, one an edge, pressure correction
+  std::vector<Table<3, 3>> dP;                     // correction of the stress [Pa], full correction
   std::vector<Table<3, 3>> dG;                     // correction of the velocity gradient [m^3/s], flux correction
   std::vector<std::array<double, 4>> L;            // limiter of W; its pseudo-Laplacian for jst
   std::vector<std::array<int, 4>> tets;            // current areas
@@ -59,10 +60,11 @@ struct NaiveLoop {
   std::vector<Vec3> lambda;                        // [1/m] jst
   std::vector<std::array<double, 4>> force;        // {force [N], J source [m^3/s]}
   double t = 0;                                    // [s]
+  bool has_lagged = false, takes_lagged = false;          // dG, q and dP (within P) of the last stage, for the first of the next step; taken in this stage
   PartReport report;                               // of the present state
 };
 
-/// The same state, geometry, supports and loads as a simulation.
+/// The same state, geometry, supports and loads as a simulation before its first step.
 NaiveLoop make_naive_loop(const Simulation& s);
 
 /// Stress and what is swept, of all nodes.

@@ -29,8 +29,8 @@ void allocate(NaiveLoop& n) {
   n.now.resize(nodes), n.stage.resize(nodes), n.W.resize(nodes), n.stress.resize(nodes), n.G.resize(nodes), n.force.resize(nodes);
   if (p.formulation == Formulation::pFHJ) n.H_now.resize(nodes), n.H_stage.resize(nodes);
   if (full || (p.pressure_jump == PressureJump::tensor && p.reconstruction != Reconstruction::constant)) n.GP.resize(nodes);
-  if (full) n.Q.resize(nodes);
-  if (p.flux_correction != FluxCorrection::none) n.dG.resize(nodes);
+  if (full) n.dP.resize(nodes);
+  if (p.flux_correction != FluxCorrection::none) n.dG.resize(nodes), n.q.resize(n.edges.size());
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) n.L.resize(nodes);
 }
 

@@ -19,6 +19,13 @@ const double* PH_row(const Simulation& s, int node) {
   return &s.state.PH[s.state.now][static_cast<std::size_t>(row::PH * s.order.row_of[static_cast<std::size_t>(node)])];
 }
 
+/// P_iI of the material [Pa]: without the flux correction that the next step's first stage takes.
+double P_at(const Simulation& s, int node, int i, int I) {
+  const double P = PH_row(s, node)[8 * I + i];
+  if (!s.state.has_lagged_correction || s.state.dP.empty()) return P;
+  return P - s.state.dP[static_cast<std::size_t>(row::dP * s.order.row_of[static_cast<std::size_t>(node)] + 4 * I + i)];
+}
+
 double plastic_strain(const Simulation& s, int node) {
   return s.state.plastic[static_cast<std::size_t>(row::plastic * s.order.row_of[static_cast<std::size_t>(node)] + 3)];
 }
@@ -31,13 +38,13 @@ Tensor<double> F_of(const double* U) {
 
 /// Cauchy stress P F^T / J with the J that the scheme carries [Pa].
 Tensor<double> cauchy(const Simulation& s, int node) {
-  const double *U = U_row(s, node), *PH = PH_row(s, node);
+  const double* U = U_row(s, node);
   const Tensor<double> F = F_of(U);
   const double J = evolves_J(s.scene->physics.formulation) ? U[3] : determinant(F, cofactor(F));
   Tensor<double> sigma{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
-      for (int I = 0; I < 3; ++I) sigma[i][j] += PH[8 * I + i] * F[j][I];
+      for (int I = 0; I < 3; ++I) sigma[i][j] += P_at(s, node, i, I) * F[j][I];
       sigma[i][j] /= J;
     }
   return sigma;
@@ -64,7 +71,7 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
     if (name == "velocity") out[k] = U[k];
   }
   for (int k = 0; k < 9; ++k) {
-    if (name == "P") out[k] = PH[8 * (k % 3) + k / 3];
+    if (name == "P") out[k] = P_at(s, node, k / 3, k % 3);
     if (name == "H") out[k] = PH[8 * (k % 3) + 4 + k / 3];
     if (name == "H" && has_current_areas(s.scene->physics.description)) out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
     if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
@@ -131,7 +138,7 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
     const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
     const double V = s.volume[static_cast<std::size_t>(n)];
     const PointState now = exact_solution(*s.scene, middle, X, s.t), start = exact_solution(*s.scene, middle, X, 0);
-    const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)}, ours[2] = {m.rho * U_row(s, n)[0], PH_row(s, n)[0]};
+    const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)}, ours[2] = {m.rho * U_row(s, n)[0], P_at(s, n, 0, 0)};
     for (int k = 0; k < 3; ++k) x1[k] += V * std::abs(exact[k]), x2[k] += V * exact[k] * exact[k];
     for (int k = 0; k < 2; ++k) e1[k] += V * std::abs(ours[k] - exact[k]), e2[k] += V * (ours[k] - exact[k]) * (ours[k] - exact[k]);
   }

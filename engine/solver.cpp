@@ -51,6 +51,8 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
+  k.takes_lagged = number == 0 && u.has_lagged_correction;
+  k.leaves_lagged = s.scene->physics.flux_correction != FluxCorrection::none && stages == 2 && number == 1;  // at t + dt, as the next step's first stage
   Rows rows = stage_rows(u, from, to);
   rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
   const auto edges = s.order.edges();
@@ -90,6 +92,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const std::string failure = projected ? project_stage(s, number) : std::string();
   book_stage(s, arms, rk.mean, number == 0);
   if (!projected) u.now = 1 - u.now;
+  u.has_lagged_correction = k.leaves_lagged;
   return failure;
 }
 

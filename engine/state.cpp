@@ -71,7 +71,8 @@ State make_state(const Scene& scene, const Mesh& mesh, Dual dual, const Order& o
     }
   }
   if (p.reconstruction != Reconstruction::constant || p.formulation == Formulation::pFp) s.G.assign(row::G * rows, 0.0);
-  if (p.flux_correction == FluxCorrection::full) s.Q.assign(row::Q * rows, 0.0);
+  if (p.flux_correction == FluxCorrection::pressure) s.q.assign(order.C[0].size(), 0.0);
+  if (p.flux_correction == FluxCorrection::full) s.dP.assign(row::dP * rows, 0.0);
   if (p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear) s.GP.assign(row::GP * rows, 0.0);
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) s.L.assign(row::L * rows, 0.0);
   if (has_plasticity(scene)) {
@@ -90,13 +91,13 @@ Rows stage_rows(State& u, int from, int to) {
   r.X = u.X.data(), r.lambda = u.lambda.data(), r.loads = u.loads.data();
   r.U_old = u.U[0].data(), r.U_stage = u.U[from].data(), r.H_old = u.H[0].data(), r.H_stage = u.H[from].data();
   r.W = u.W[u.now].data(), r.PH = u.PH[u.now].data();
-  r.G = u.G.data(), r.Q = u.Q.data(), r.GP = u.GP.data(), r.L = u.L.data();
+  r.G = u.G.data(), r.dP = u.dP.data(), r.lagged_dG = u.U[1].data(), r.lagged_q = u.q.data(), r.GP = u.GP.data(), r.L = u.L.data();
   r.U_new = u.U[to].data(), r.H_new = u.H[to].data(), r.W_new = u.W[next].data(), r.PH_new = u.PH[next].data(), r.plastic = u.plastic.data();
   return r;
 }
 
 double bytes_per_node(const State& s, const Order& o) {
-  std::size_t doubles = s.X.size() + s.G.size() + s.Q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.plastic.size() + s.step_length.size() + s.loads.size() + 2 * s.reactions.size();
+  std::size_t doubles = s.X.size() + s.G.size() + s.dP.size() + s.q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.plastic.size() + s.step_length.size() + s.loads.size() + 2 * s.reactions.size();
   for (int k = 0; k < 2; ++k) doubles += s.U[k].size() + s.H[k].size() + s.W[k].size() + s.PH[k].size();
   for (int k = 0; k < 3; ++k) doubles += o.C[k].size() + o.corner_C[k].size();
   const std::size_t ints = o.a.size() + o.b.size() + o.out.size() + o.in.size() + o.in_edges.size() + o.corner.size() + o.corner_b.size() + o.corner_c.size() +

@@ -33,18 +33,18 @@ struct Carried {
 };
 
 namespace bytes {
-inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, Q = 96, GP = 288, L = 32, lambda = 32, step_length = 8;
+inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, dP = 96, GP = 288, L = 32, lambda = 32, step_length = 8;
 inline constexpr double lists = 12;                                  // out, in, corner
 inline constexpr double edge = 28, edge_a = 4, in_edge = 8;          // b, C; a; edge number and a
 inline constexpr double corner = 32, corner_load = 4;                // b, c, C; load
 }  // namespace bytes
 
-/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, Q, L.
+/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, dP, L.
 inline Work gradient_work(const Carried& c, const Sizes& s) {
   const bool of_P = c.full || (c.tensor && c.linear), stores_GP = c.tensor && c.linear;
   const double half_edges = s.edges + s.in_edges;
   Work out;
-  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::lists + 2 * bytes::G + (of_P ? bytes::PH : 0) + (stores_GP ? 2 * bytes::GP : 0) + (c.full ? 2 * bytes::Q : 0)) +
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::lists + 2 * bytes::G + (of_P ? bytes::PH : 0) + (stores_GP ? 2 * bytes::GP : 0) + (c.full ? 2 * bytes::dP : 0)) +
               s.edges * bytes::edge + s.in_edges * bytes::in_edge + s.corners * bytes::corner;
   const double numbers = c.w + (of_P ? 9 : 0);
   out.flops = half_edges * numbers * (1 + 6) + s.corners * numbers * (4 + 6) + s.nodes * 3 * numbers;  // difference, 3 fma; mean of two; scaling
@@ -55,7 +55,7 @@ inline Work gradient_work(const Carried& c, const Sizes& s) {
   return out;
 }
 
-/// edge_flux_part: reads W, X, PH, G, GP, Q, L and the edges; its buffer stays in L2. edge_flux_jst_part: PH, L and the edges.
+/// edge_flux_part: reads W, X, PH, G, GP, dP, L and the edges; its buffer stays in L2. edge_flux_jst_part: PH, L and the edges.
 inline Work edge_flux_work(const Carried& c, const Sizes& s) {
   const double n = c.w;
   Work out;
@@ -64,7 +64,7 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s) {
     out.flops = s.edges * (3 * (3 + 1 + 6) + 4 * n) + s.corners * 9 * 5;
     return out;
   }
-  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::Q : 0) + (c.limited ? bytes::L : 0)) +
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::dP : 0) + (c.limited ? bytes::L : 0)) +
               s.edges * (bytes::edge + bytes::edge_a) + s.corners * (bytes::corner + bytes::corner_load);
   double flops = 3 * (6 + 1 + 12) + n;                                  // averages of P and H times C; jump
   if (c.linear) flops += 3 + 3 * n + 6 * n + 2 * n;                     // D; G_a + G_b; times D; subtracted
@@ -74,7 +74,7 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s) {
   flops += 5 + 2 + 2 + 2 + (c.deformed ? 2 : 0) + 6 + 12;               // c.c; shear; 1/(c.c cn); normal; root and comparison; (c.d); D^p
   if (c.J) flops += 3 + 2;                                              // D^J
   if (c.pressure) flops += 1;
-  if (c.full) flops += 9 + 3 + 18;                                      // average of Q times C
+  if (c.full) flops += 9 + 3 + 18;                                      // average of dP times C, and to the traction
   if (c.tensor) flops += 9 * (1 + 2) + 5 + 1 + (c.linear ? 9 * 3 * 3 : 0);  // jump of P times C, along c
   out.flops = s.edges * flops + s.corners * 9 * 5;
   return out;
@@ -109,10 +109,15 @@ inline Work dissipation_work(const PhysicsSpec& p, const Sizes& s, double mesh_e
   return out;
 }
 
-/// A step of the fused schedule with linear reconstruction: two sweeps a stage.
+/// A step of the fused schedule with linear reconstruction: two sweeps a stage. With two stages the first takes the flux correction that the last of the step before has
+/// left in the rows of the stage's state (written once more for it), and on the edges (pressure) or in P (full).
 inline Work step_work(const PhysicsSpec& p, const Sizes& s, double law_flops, int stages) {
-  const Carried c(p);
-  return stages * (gradient_work(c, s) + edge_flux_work(c, s) + accumulate_update_work(c, s, false) + stress_work(c, s, law_flops, false));
+  const auto stage = [&](const Carried& c) { return gradient_work(c, s) + edge_flux_work(c, s) + accumulate_update_work(c, s, false) + stress_work(c, s, law_flops, false); };
+  const Carried found(p);
+  if (!found.corrected || stages != 2) return stages * stage(found);
+  Carried lagged = found;
+  lagged.full = lagged.corrected = false;
+  return stage(lagged) + stage(found) + Work{s.nodes * bytes::U + (found.pressure ? 3 * 8 * s.edges : 0), s.nodes * (9 + (found.full ? 9 : 0))};
 }
 
 }  // namespace nanson

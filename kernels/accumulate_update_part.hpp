@@ -11,30 +11,36 @@ NANSON_INLINE double density(const Rows& rows, const Coefficients& k, int n) {
   else return k.material.rho;
 }
 
+/// What a stage does about the flux correction of the velocity gradient: there is none | it takes that of the step before | it finds it.
+enum class GradientCorrection { none, lagged, found };
+
 /// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
 /// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
-template <bool corrected, Materials materials>
+template <GradientCorrection correction, Materials materials>
 NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+  constexpr bool corrected = correction == GradientCorrection::found;
   constexpr int width = corrected ? 8 : 4;
   const double* buffer = scratch.edge;
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
     Vec4 g0{}, g1{}, g2{};
-    auto add_q = [&](const double* r, double C0, double C1, double C2) {
-      const Vec4 q = load4(r + 4);
-      g0 = fma(q, broadcast4(C0), g0), g1 = fma(q, broadcast4(C1), g1), g2 = fma(q, broadcast4(C2), g2);
-    };
     for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
       const double* r = buffer + width * (e - part.edge_begin);
       f = f + load4(r);
-      if constexpr (corrected) add_q(r, edges.C[0][e], edges.C[1][e], edges.C[2][e]);
+      if constexpr (corrected) {
+        const Vec4 q = load4(r + 4);
+        g0 = fma(q, broadcast4(edges.C[0][e]), g0), g1 = fma(q, broadcast4(edges.C[1][e]), g1), g2 = fma(q, broadcast4(edges.C[2][e]), g2);
+      }
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
       const double* r = buffer + width * (e - part.edge_begin);
       f = f - load4(r);
-      if constexpr (corrected) add_q(r, -edges.C[0][e], -edges.C[1][e], -edges.C[2][e]);
+      if constexpr (corrected) {
+        const Vec4 q = load4(r + 4);
+        g0 = fnma(q, broadcast4(edges.C[0][e]), g0), g1 = fnma(q, broadcast4(edges.C[1][e]), g1), g2 = fnma(q, broadcast4(edges.C[2][e]), g2);
+      }
     }
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) f = f + load4(scratch.corner + 4 * (g - part.corner_begin));
     store4(scratch.force + 4 * (n - part.node_begin), f);
@@ -70,7 +76,7 @@ NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficie
 }
 
 /// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G (current areas: row dJ) + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
-template <Formulation formulation, bool corrected, Areas areas, Materials materials>
+template <Formulation formulation, GradientCorrection correction, Areas areas, Materials materials>
 NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
   const Vec4 w0 = broadcast4(k.old_weight), w1 = broadcast4(k.stage_weight), dt = broadcast4(k.dt);
   double inverse_rho = 1.0 / k.material.rho;
@@ -81,8 +87,10 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
     const double *U_old = rows.U_old + row::U * n, *U_stage = rows.U_stage + row::U * n, *PH = rows.PH + row::PH * n, *G = rows.G + row::G * n;
     double* U_new = rows.U_new + row::U * n;
     Vec4 g[3] = {load4(G), load4(G + 4), load4(G + 8)};
-    if constexpr (corrected)
-      for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I);
+    if constexpr (correction != GradientCorrection::none) {
+      const double* dG = correction == GradientCorrection::lagged ? rows.lagged_dG + row::U * n : scratch.dG + 12 * (n - part.node_begin);
+      for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(dG + 4 * I);
+    }
     if constexpr (materials == Materials::several) inverse_rho = 1.0 / rows.rho[n];
     const double inverse_volume = rows.X[row::X * n + 3], inverse_mass = inverse_rho * inverse_volume;
     Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin)) * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
@@ -103,15 +111,23 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
       for (int I = 0; I < 3; ++I)
         advance(rows.H_old + row::H * n + 4 * I, rows.H_stage + row::H * n + 4 * I, rows.H_new + row::H * n + 4 * I, Vec4{dH[0][I], dH[1][I], dH[2][I], 0.0});
     }
+    if constexpr (correction == GradientCorrection::found)
+      if (k.leaves_lagged)
+        for (int I = 0; I < 3; ++I) store4(rows.lagged_dG + row::U * n + 4 * I, load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I));
   }
 }
 
 template <Formulation formulation, bool corrected, Areas areas, Materials materials>
 void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                             const Constraint* constraints, double* reactions, const Scratch& scratch) {
-  gather<corrected, materials>(part, edges, lists, rows, k, scratch);
-  constrain<materials>(part, rows, k, constraints, reactions, scratch);
-  update<formulation, corrected, areas, materials>(part, rows, k, scratch);
+  const auto run = [&]<GradientCorrection correction>() {
+    gather<correction, materials>(part, edges, lists, rows, k, scratch);
+    constrain<materials>(part, rows, k, constraints, reactions, scratch);
+    update<formulation, correction, areas, materials>(part, rows, k, scratch);
+  };
+  if constexpr (!corrected) run.template operator()<GradientCorrection::none>();
+  else if (k.takes_lagged) run.template operator()<GradientCorrection::lagged>();
+  else run.template operator()<GradientCorrection::found>();
 }
 
 }  // namespace nanson

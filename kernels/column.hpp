@@ -60,6 +60,21 @@ NANSON_INLINE Vec8 fma(Vec8 a, Vec8 b, Vec8 c) {
   return concat(fma(low(a), low(b), low(c)), fma(high(a), high(b), high(c)));
 #endif
 }
+/// c - a b, rounded like fma(-a, b, c).
+NANSON_INLINE Vec4 fnma(Vec4 a, Vec4 b, Vec4 c) {
+#if defined(__FMA__)
+  return _mm256_fnmadd_pd(a, b, c);
+#else
+  return c - a * b;
+#endif
+}
+NANSON_INLINE Vec8 fnma(Vec8 a, Vec8 b, Vec8 c) {
+#if defined(__AVX512F__)
+  return _mm512_fnmadd_pd(a, b, c);
+#else
+  return concat(fnma(low(a), low(b), low(c)), fnma(high(a), high(b), high(c)));
+#endif
+}
 
 NANSON_INLINE double root(double x) { return __builtin_sqrt(x); }
 NANSON_INLINE Vec4 root(Vec4 x) {

@@ -13,7 +13,7 @@ NANSON_INLINE void cell_motion(const Part& part, EdgeArrays edges, CornerArrays 
     const Vec4 Wa = load4(rows.W + row::W * n);
     Vec4 s{};
     around(
-        n, edges, corners, lists, [&](int b, double c0, double c1, double c2) { s = fma(load4(rows.W + row::W * b) - Wa, Vec4{c0, c1, c2, 0.0}, s); },
+        n, edges, corners, lists, [&](auto sense, std::int32_t e, int b) { s = add_product(sense, load4(rows.W + row::W * b) - Wa, Vec4{edges.C[0][e], edges.C[1][e], edges.C[2][e], 0.0}, s); },
         [&](int b, int c, double c0, double c1, double c2) {
           s = fma(((load4(rows.W + row::W * b) - Wa) + (load4(rows.W + row::W * c) - Wa)) * 0.25, Vec4{c0, c1, c2, 0.0}, s);
         });
@@ -40,7 +40,7 @@ NANSON_INLINE void current_corner_forces(const Part& part, const CornerArrays& c
 template <Reconstruction reconstruction, UpwindMetric metric>
 void current_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                        const Scratch& scratch) {
-  edge_fluxes<reconstruction, FluxCorrection::none, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge);
+  edge_fluxes<reconstruction, FluxCorrection::none, false, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge);
   current_corner_forces(part, corners, lists, rows, scratch.corner);
   cell_motion(part, edges, corners, lists, rows);
 }

@@ -52,7 +52,7 @@ struct EdgeBlock {
 };
 
 /// First pass over edges [begin, end): central traction and area, jumps; q = (theta/4)(G_a - G_b) . D into the second half of the flux rows.
-template <Reconstruction reconstruction, FluxCorrection correction, PressureJump jump, EntropyFix fix, Areas areas>
+template <Reconstruction reconstruction, FluxCorrection correction, bool finds, PressureJump jump, EntropyFix fix, Areas areas>
 NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta, EdgeBlock& block, double* flux) {
   constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
   for (int e = begin; e < end; ++e) {
@@ -60,7 +60,7 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
     __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
     if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
-    if constexpr (correction == FluxCorrection::full) __builtin_prefetch(rows.Q + row::Q * next), __builtin_prefetch(rows.Q + row::Q * next + 8);
+    if constexpr (correction == FluxCorrection::full) __builtin_prefetch(rows.dP + row::dP * next), __builtin_prefetch(rows.dP + row::dP * next + 8);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
     const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
@@ -69,29 +69,32 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
     if constexpr (areas == Areas::current) tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
-    if constexpr (correction == FluxCorrection::full) tc = concat(average_traction(rows.Q + row::Q * a, rows.Q + row::Q * b, C), high(tc));
+    if constexpr (correction == FluxCorrection::full) tc = concat(low(tc) + average_traction(rows.dP + row::dP * a, rows.dP + row::dP * b, C), high(tc));
     const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
     store8(block.tc + 8 * at, tc);
     store4(block.d + 4 * at, reconstructed_jump<reconstruction>(rows, a, b, plain, D));
     if constexpr (fix != EntropyFix::none) store4(block.plain + 4 * at, plain);
     if constexpr (jump == PressureJump::tensor) store4(block.y + 4 * at, traction_jump<reconstruction>(rows, a, b, C, D));
-    if constexpr (correction != FluxCorrection::none)
-      store4(flux + 8 * at + 4, difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * theta));
+    if constexpr (finds) {
+      const Vec4 q = difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * theta);
+      store4(flux + 8 * at + 4, q);
+      if constexpr (correction == FluxCorrection::pressure) rows.lagged_q[e] = q[3];
+    }
   }
 }
 
-/// Asks for the states of a node that the update reads after the edge loop.
-NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows) {
-  for (const double* U : {rows.U_old, rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
+/// Asks for the rows of a node that the update reads after the edge loop: states, or the state and a lagged correction.
+NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lagged) {
+  for (const double* U : {rows.U_old, takes_lagged ? rows.lagged_dG : rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
 }
 
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`.
-template <FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
-NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, double* flux) {
-  constexpr int width = correction != FluxCorrection::none ? 8 : 4;
+template <FluxCorrection correction, bool finds, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
+NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q, double* flux) {
+  constexpr int width = finds ? 8 : 4;
   const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
-  Vec8 t[4], c[4], d[4], plain[4]{}, y[4], q[4];
+  Vec8 t[4], c[4], d[4], plain[4]{}, y[4];
   load_transposed(block.tc + 8 * at, 8, t[0], t[1], t[2], t[3]);
   load_transposed(block.tc + 8 * at + 4, 8, c[0], c[1], c[2], c[3]);
   load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
@@ -104,10 +107,7 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho
     d[3] = dot(c, y), s.volume = s.volume / cc;
   }
   StabiliserOf<Vec8> u = stabiliser<fix, Vec8>(s, cc, dot(c, d), dot(c, plain), dot(d, plain), d[3] * plain[3]);
-  if constexpr (correction == FluxCorrection::pressure) {
-    load_transposed(flux + 4, width, q[0], q[1], q[2], q[3]);
-    u.along = u.along + q[3];
-  }
+  if constexpr (correction == FluxCorrection::pressure) u.along = u.along + load8_anywhere(q);
   Vec8 f[3];
   for (int i = 0; i < 3; ++i) f[i] = fma(u.shear, d[i], fma(u.along, c[i], t[i]));
   store_transposed(flux, width, f[0], f[1], f[2], u.volume * d[3]);
@@ -116,21 +116,23 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums, differences and products of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
 /// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone.
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas = Areas::undeformed,
-          Materials materials = Materials::one>
+template <Reconstruction reconstruction, FluxCorrection correction, bool finds, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
+          Areas areas = Areas::undeformed, Materials materials = Materials::one>
 NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
-  constexpr int width = correction != FluxCorrection::none ? 8 : 4, nodes_ahead = 40;
+  constexpr int width = finds ? 8 : 4, nodes_ahead = 40;
   EdgeBlock block{};
   for (int begin = part.edge_begin; begin < part.edge_end; begin += edge_block) {
     const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
     double* flux = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
-    gather_edges<reconstruction, correction, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
+    gather_edges<reconstruction, correction, finds, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
     for (int at = 0; at < count; at += 8) {
-      prefetch_U(edges.a[begin + at] + nodes_ahead, rows);
+      prefetch_U(edges.a[begin + at] + nodes_ahead, rows, k.takes_lagged);
+      const double* q = nullptr;
+      if constexpr (correction == FluxCorrection::pressure) q = rows.lagged_q + begin + at;
       const Vec8 size = edge_sizes(edges, begin + at);
       if constexpr (materials == Materials::several)
-        finish_edges<correction, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at), load8_anywhere(edges.rho_cs + begin + at), flux + width * at);
-      else finish_edges<correction, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, flux + width * at);
+        finish_edges<correction, finds, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at), load8_anywhere(edges.rho_cs + begin + at), q, flux + width * at);
+      else finish_edges<correction, finds, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, q, flux + width * at);
     }
   }
 }
@@ -163,16 +165,18 @@ double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLis
 template <FluxCorrection correction>
 NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
   constexpr bool full = correction == FluxCorrection::full;
-  constexpr int stride = full ? row::Q : row::PH, column = full ? 4 : 8;
-  const double* stress = full ? rows.Q : rows.PH;
+  const auto stress = [&](std::ptrdiff_t n, int I) {
+    const Vec4 P = load4(rows.PH + row::PH * n + 8 * I);
+    if constexpr (full) return P + load4(rows.dP + row::dP * n + 4 * I);
+    else return P;
+  };
   if (part.corner_begin == part.corner_end) return;
   for (int a = part.node_begin; a < part.node_end; ++a)
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {
       Vec4 f = corners.load[g] >= 0 ? load4(rows.loads + 4 * corners.load[g]) : Vec4{};
       if (k.adjoint)
         for (int I = 0; I < 3; ++I) {
-          const Vec4 Pa = load4(stress + stride * a + column * I);
-          const Vec4 d = (Pa - load4(stress + stride * corners.b[g] + column * I)) + (Pa - load4(stress + stride * corners.c[g] + column * I));
+          const Vec4 Pa = stress(a, I), d = (Pa - stress(corners.b[g], I)) + (Pa - stress(corners.c[g], I));
           f = fma(d, broadcast4(0.125 * corners.C[I][g]), f);
         }
       store4(buffer + 4 * (g - part.corner_begin), f);
@@ -182,8 +186,13 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
 template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Materials materials>
 void edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                     const Scratch& scratch) {
-  edge_fluxes<reconstruction, correction, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
-  corner_forces<correction>(part, corners, lists, rows, k, scratch.corner);
+  const auto run = [&]<FluxCorrection adds, bool finds>() {
+    edge_fluxes<reconstruction, adds, finds, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
+    corner_forces<adds>(part, corners, lists, rows, k, scratch.corner);
+  };
+  if constexpr (correction == FluxCorrection::none) run.template operator()<correction, false>();
+  else if (!k.takes_lagged) run.template operator()<correction, true>();
+  else run.template operator()<correction == FluxCorrection::full ? FluxCorrection::none : correction, false>();
 }
 
 }  // namespace nanson

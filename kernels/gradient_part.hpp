@@ -1,53 +1,59 @@
 // Green-Gauss gradients, node by node over both kinds of edges: at once dF/dt and the reconstruction gradient (paper, eq. 43a; method: one pass serves both).
 #pragma once
+#include <type_traits>
+
 #include "kernels/part.hpp"
 #include "kernels/reconstruction.hpp"
 
 namespace nanson {
 
-/// Visits the half-edges and corners of node n as visit(neighbour row, C from n) and corner(b, c, C).
+/// Sense of a half-edge: the area vector from its node is that of the edge, or the opposite.
+using Outward = std::integral_constant<int, 1>;
+using Inward = std::integral_constant<int, -1>;
+template <class Sense, class Real>
+NANSON_INLINE Real add_product(Sense, Real a, Real b, Real sum) {
+  if constexpr (Sense::value > 0) return fma(a, b, sum);
+  else return fnma(a, b, sum);
+}
+
+/// Visits the half-edges and corners of node n as edge(sense, edge, neighbour row) and corner(b, c, C).
 template <class Edge, class Corner>
 NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, Edge edge, Corner corner) {
-  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) edge(edges.b[e], edges.C[0][e], edges.C[1][e], edges.C[2][e]);
+  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) edge(Outward(), e, edges.b[e]);
   for (std::int32_t k = lists.in[n]; k < lists.in[n + 1]; ++k) {
     const std::int32_t e = lists.in_edges[k];
-    edge(edges.a[e], -edges.C[0][e], -edges.C[1][e], -edges.C[2][e]);
+    edge(Inward(), e, edges.a[e]);
   }
   for (std::int32_t k = lists.corner[n]; k < lists.corner[n + 1]; ++k) corner(corners.b[k], corners.c[k], corners.C[0][k], corners.C[1][k], corners.C[2][k]);
 }
 
-/// Asks for what a node will read some nodes later: the rows of the other ends of its out-edges (those of in-edges are the part's own), and its edges. The
-/// processor's own prefetch loses the sequence of so many arrays as soon as rows are gathered between them. The arrays are padded.
-NANSON_INLINE void prefetch_W(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
-  constexpr int ahead = 200, edges_ahead = 256;
-  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.W + row::W * edges.b[e + ahead]);
-  const std::ptrdiff_t e = lists.out[n] + edges_ahead;
+/// Asks for edges that will be read some nodes later: the processor's own prefetch loses the sequence of so many arrays as soon as rows are gathered between them.
+/// The arrays are padded.
+NANSON_INLINE void prefetch_edges(int n, const EdgeArrays& edges, const NodeLists& lists) {
+  constexpr int ahead = 256;
+  const std::ptrdiff_t e = lists.out[n] + ahead;
   for (const double* C : edges.C) __builtin_prefetch(C + e), __builtin_prefetch(C + e + 8);
-  __builtin_prefetch(edges.b + e + ahead), __builtin_prefetch(lists.in_edges + lists.in[n] + edges_ahead);
+  __builtin_prefetch(edges.b + e + 200), __builtin_prefetch(lists.in_edges + lists.in[n] + ahead);
 }
-NANSON_INLINE void prefetch_X(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
-  constexpr int ahead = 60;
-  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) __builtin_prefetch(rows.X + row::X * edges.b[e + ahead]);
-}
-NANSON_INLINE void prefetch_stress(int n, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows) {
-  constexpr int ahead = 40;
-  for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-    const std::int32_t next = edges.b[e + ahead];
-    for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
-  }
+/// Asks for the row at the other end of an out-edge that comes `ahead` edges later; those of in-edges are the part's own.
+template <int width, int ahead, int lines = 1, class Sense>
+NANSON_INLINE void prefetch_row(Sense, const double* rows, const EdgeArrays& edges, std::int32_t e) {
+  if constexpr (Sense::value > 0)
+    for (int line = 0; line < lines; ++line) __builtin_prefetch(rows + width * edges.b[e + ahead] + 8 * line);
 }
 
 /// G_a = (1/Omega)[sum_b (W_b - W_a)/2 (x) C + sum_gamma (W_b + W_c - 2 W_a)/8 (x) C_gamma], W = {v, Sigma_J}: eq. (43a) with the (6,1,1)/8 rule (29)
 /// after the closure of the dual cell has been used, so that a constant field has the gradient zero bitwise. G [1/s] and [Pa/m].
 NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
-  prefetch_W(n, edges, lists, rows);
+  prefetch_edges(n, edges, lists);
   const Vec4 Wa = load4(rows.W + row::W * n);
   Vec4 g0{}, g1{}, g2{};
   around(
       n, edges, corners, lists,
-      [&](int b, double C0, double C1, double C2) {
+      [&](auto sense, std::int32_t e, int b) {
+        prefetch_row<row::W, 200>(sense, rows.W, edges, e);
         const Vec4 d = load4(rows.W + row::W * b) - Wa;
-        g0 = fma(d, broadcast4(C0), g0), g1 = fma(d, broadcast4(C1), g1), g2 = fma(d, broadcast4(C2), g2);
+        g0 = add_product(sense, d, broadcast4(edges.C[0][e]), g0), g1 = add_product(sense, d, broadcast4(edges.C[1][e]), g1), g2 = add_product(sense, d, broadcast4(edges.C[2][e]), g2);
       },
       [&](int b, int c, double C0, double C1, double C2) {
         const Vec4 d = ((load4(rows.W + row::W * b) - Wa) + (load4(rows.W + row::W * c) - Wa)) * 0.25;
@@ -60,22 +66,22 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
 
 /// Gradient of the stress, dP_iI/dX_K [Pa/m], by the same rule; K-major as in row::GP.
 NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, Vec4 (&g)[3][3]) {
-  prefetch_stress(n, edges, lists, rows);
   const double* Pa = rows.PH + row::PH * n;
   for (auto& gk : g)
     for (auto& gki : gk) gki = Vec4{};
-  auto add = [&](int I, Vec4 d, double C0, double C1, double C2) {
-    g[0][I] = fma(d, broadcast4(C0), g[0][I]), g[1][I] = fma(d, broadcast4(C1), g[1][I]), g[2][I] = fma(d, broadcast4(C2), g[2][I]);
+  auto add = [&](auto sense, int I, Vec4 d, double C0, double C1, double C2) {
+    g[0][I] = add_product(sense, d, broadcast4(C0), g[0][I]), g[1][I] = add_product(sense, d, broadcast4(C1), g[1][I]), g[2][I] = add_product(sense, d, broadcast4(C2), g[2][I]);
   };
   around(
       n, edges, corners, lists,
-      [&](int b, double C0, double C1, double C2) {
-        for (int I = 0; I < 3; ++I) add(I, load4(rows.PH + row::PH * b + 8 * I) - load4(Pa + 8 * I), C0, C1, C2);
+      [&](auto sense, std::int32_t e, int b) {
+        prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
+        for (int I = 0; I < 3; ++I) add(sense, I, load4(rows.PH + row::PH * b + 8 * I) - load4(Pa + 8 * I), edges.C[0][e], edges.C[1][e], edges.C[2][e]);
       },
       [&](int b, int c, double C0, double C1, double C2) {
         for (int I = 0; I < 3; ++I) {
           const Vec4 P = load4(Pa + 8 * I);
-          add(I, ((load4(rows.PH + row::PH * b + 8 * I) - P) + (load4(rows.PH + row::PH * c + 8 * I) - P)) * 0.25, C0, C1, C2);
+          add(Outward(), I, ((load4(rows.PH + row::PH * b + 8 * I) - P) + (load4(rows.PH + row::PH * c + 8 * I) - P)) * 0.25, C0, C1, C2);
         }
       });
   const Vec4 half_inverse = broadcast4(0.5 * rows.X[row::X * n + 3]);
@@ -83,36 +89,38 @@ NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArr
     for (auto& gki : gk) gki = gki * half_inverse;
 }
 
-/// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP, and the nodal stress of the full flux correction,
-/// Q_a = P_a + theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14). One visit of the neighbours: sum_b C_I D_K D_L is taken
+/// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP, and what the full flux correction adds to the nodal stress,
+/// dP_a = theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14). One visit of the neighbours: sum_b C_I D_K D_L is taken
 /// beside the differences and meets the gradient of P when that is known.
 NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, double theta,
                                     Vec4 (&g)[3][3]) {
-  prefetch_W(n, edges, lists, rows), prefetch_X(n, edges, lists, rows);
-  prefetch_stress(n, edges, lists, rows);
+  prefetch_edges(n, edges, lists);
   const double* Pa = rows.PH + row::PH * n;
   const Vec4 Xa = load4(rows.X + row::X * n), Wa = load4(rows.W + row::W * n), P[3] = {load4(Pa), load4(Pa + 8), load4(Pa + 16)};
   Vec8 g01[3] = {}, g2W[3] = {}, CDD[3] = {};  // CDD[I]: C_I {D_0 D_0, D_0 D_1, D_0 D_2, D_1 D_1, D_1 D_2, D_2 D_2}
   Vec4 q[3] = {};
-  const auto add = [&](Vec4 d0, Vec4 d1, Vec4 d2, Vec4 dW, const double(&C)[3]) {
+  const auto add = [&](auto sense, Vec4 d0, Vec4 d1, Vec4 d2, Vec4 dW, const Vec8(&C)[3]) {
     const Vec8 d01 = concat(d0, d1), d2W = concat(d2, dW);
-    for (int K = 0; K < 3; ++K) g01[K] = fma(d01, broadcast8(C[K]), g01[K]), g2W[K] = fma(d2W, broadcast8(C[K]), g2W[K]);
+    for (int K = 0; K < 3; ++K) g01[K] = add_product(sense, d01, C[K], g01[K]), g2W[K] = add_product(sense, d2W, C[K], g2W[K]);
   };
   around(
       n, edges, corners, lists,
-      [&](int b, double C0, double C1, double C2) {
-        const double *Pb = rows.PH + row::PH * b, C[3] = {C0, C1, C2};
+      [&](auto sense, std::int32_t e, int b) {
+        prefetch_row<row::W, 200>(sense, rows.W, edges, e), prefetch_row<row::X, 60>(sense, rows.X, edges, e), prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
+        const double* Pb = rows.PH + row::PH * b;
+        const Vec8 C[3] = {broadcast8(edges.C[0][e]), broadcast8(edges.C[1][e]), broadcast8(edges.C[2][e])};
         const Vec4 D = load4(rows.X + row::X * b) - Xa, d0 = load4(Pb) - P[0], d1 = load4(Pb + 8) - P[1], d2 = load4(Pb + 16) - P[2];
-        add(d0, d1, d2, load4(rows.W + row::W * b) - Wa, C);
-        const Vec4 y = fma(d2, broadcast4(C2), fma(d1, broadcast4(C1), d0 * broadcast4(C0)));
-        q[0] = fma(y, spread<0>(D), q[0]), q[1] = fma(y, spread<1>(D), q[1]), q[2] = fma(y, spread<2>(D), q[2]);
+        add(sense, d0, d1, d2, load4(rows.W + row::W * b) - Wa, C);
+        const Vec4 y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
+        q[0] = add_product(sense, y, spread<0>(D), q[0]), q[1] = add_product(sense, y, spread<1>(D), q[1]), q[2] = add_product(sense, y, spread<2>(D), q[2]);
         const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
-        for (int I = 0; I < 3; ++I) CDD[I] = fma(DD, broadcast8(C[I]), CDD[I]);
+        for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
       },
       [&](int b, int c, double C0, double C1, double C2) {
-        const double *Pb = rows.PH + row::PH * b, *Pc = rows.PH + row::PH * c, *Wb = rows.W + row::W * b, *Wc = rows.W + row::W * c, C[3] = {C0, C1, C2};
+        const double *Pb = rows.PH + row::PH * b, *Pc = rows.PH + row::PH * c, *Wb = rows.W + row::W * b, *Wc = rows.W + row::W * c;
+        const Vec8 C[3] = {broadcast8(C0), broadcast8(C1), broadcast8(C2)};
         const auto mean = [](Vec4 a, const double* b, const double* c) { return ((load4(b) - a) + (load4(c) - a)) * 0.25; };
-        add(mean(P[0], Pb, Pc), mean(P[1], Pb + 8, Pc + 8), mean(P[2], Pb + 16, Pc + 16), mean(Wa, Wb, Wc), C);
+        add(Outward(), mean(P[0], Pb, Pc), mean(P[1], Pb + 8, Pc + 8), mean(P[2], Pb + 16, Pc + 16), mean(Wa, Wb, Wc), C);
       });
   const double inverse = rows.X[row::X * n + 3];
   const Vec8 half_inverse = broadcast8(0.5 * inverse);
@@ -126,19 +134,19 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
     Vec4 sum = -q[L];
     for (int K = 0; K < 3; ++K)
       for (int I = 0; I < 3; ++I) sum = fma(g[K][I], broadcast4(CDD[I][lane[K][L]]), sum);
-    store4(rows.Q + row::Q * n + 4 * L, fma(sum, broadcast4(0.25 * theta * inverse), P[L]));
+    store4(rows.dP + row::dP * n + 4 * L, sum * broadcast4(0.25 * theta * inverse));
   }
 }
 
 /// Row L of a node: the limiter of its reconstruction (method, section 4).
 NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
-  prefetch_X(n, edges, lists, rows);
   const Vec4 Wa = load4(rows.W + row::W * n), Xa = load4(rows.X + row::X * n);
   const double* G = rows.G + row::G * n;
   Vec4 above{}, below{}, rise{}, fall{};
   around(
       n, edges, corners, lists,
-      [&](int b, double, double, double) {
+      [&](auto sense, std::int32_t e, int b) {
+        prefetch_row<row::X, 60>(sense, rows.X, edges, e);
         const Vec4 d = load4(rows.W + row::W * b) - Wa, slope = along(G, load4(rows.X + row::X * b) - Xa) * 0.5;
         above = larger(above, d), below = smaller(below, d), rise = larger(rise, slope), fall = smaller(fall, slope);
       },
@@ -148,12 +156,12 @@ NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& c
 
 /// Row L of a node: pseudo-Laplacian sum_b (1 + lambda . D)(W_b - W_a), W = {v, J}; zero for linear fields (method, section 9).
 NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows) {
-  prefetch_X(n, edges, lists, rows);
   const Vec4 Wa = load4(rows.W + row::W * n), Xa = load4(rows.X + row::X * n), lambda = load4(rows.lambda + row::lambda * n);
   Vec4 sum{};
   around(
       n, edges, corners, lists,
-      [&](int b, double, double, double) {
+      [&](auto sense, std::int32_t e, int b) {
+        prefetch_row<row::X, 60>(sense, rows.X, edges, e);
         const Vec4 weight = dot3(lambda, load4(rows.X + row::X * b) - Xa) + 1.0;
         sum = fma(weight, load4(rows.W + row::W * b) - Wa, sum);
       },
@@ -163,6 +171,8 @@ NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const Corner
 
 template <bool tensor_jump, bool full_correction, NodeWeights weights>
 void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
+  if constexpr (full_correction)
+    if (k.takes_lagged) return gradient_part<tensor_jump, false, weights>(part, edges, corners, lists, rows, k);
   for (int n = part.node_begin; n < part.node_end; ++n) {
     Vec4 gradient_P[3][3];
     if constexpr (full_correction)

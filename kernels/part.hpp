@@ -13,7 +13,7 @@ inline constexpr int H = 12;    // {columns of H, 0}, pFHJ only
 inline constexpr int W = 4;     // {v, Sigma_J}: what is reconstructed and swept
 inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
 inline constexpr int G = 12;    // per direction I: d{v, Sigma_J}/dX_I
-inline constexpr int Q = 12;    // {columns of Q, 0}: the nodal stress of the full flux correction
+inline constexpr int dP = 12;   // {columns of dP, 0}: what the full flux correction adds to the nodal stress
 inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
 inline constexpr int L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
 inline constexpr int x = 4;     // {x, 0}, current areas only
@@ -78,7 +78,7 @@ struct Rows {
   const double* W;              // of the stage
   const double* PH;             // of the stage
   double* G;
-  double* Q;
+  double* dP;
   double* GP;
   double* L;
   const double* lambda;
@@ -89,6 +89,8 @@ struct Rows {
   double* W_new;
   double* PH_new;
   double* plastic;              // at the start of the step, overwritten where the stage commits
+  double* lagged_dG = nullptr;    // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
+  double* lagged_q = nullptr;     // [Pa] q of Sigma_J an edge, pressure correction only
   double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
 };
 
@@ -115,16 +117,18 @@ struct Coefficients {
   double g[3] = {};                 // [m/s^2] body force
   double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
   bool streams = false;             // the mesh is larger than the caches: rows that only other sweeps read are written past them
+  bool takes_lagged = false;          // the flux correction is that of the step before's last stage: dG from Rows::lagged_dG and q from lagged_q, dP stands in PH already
+  bool leaves_lagged = false;       // the next step's first stage takes the flux correction of this one
   bool commits = false;             // the stress of this stage is that of the new state: what flowed plastically is kept
   const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step
 };
 
 /// Part-local buffers of one thread.
 struct Scratch {
-  double* edge;                 // row of 4 {flux, D^J} an edge, of 8 with a flux correction: {q, 0} too; eight rows more are overwritten
+  double* edge;                 // row of 4 {flux, D^J} an edge, of 8 where a flux correction is found: {q, 0} too; eight rows more are overwritten
   double* corner;               // row of 4 {force, 0} a boundary corner
   double* force;                // row of 4 {force, J source} a node
-  double* dG;                   // row of 12 a node, flux correction only
+  double* dG;                   // row of 12 a node, where a flux correction is found
 };
 
 /// What a part reports after its update: never checked inside, the step decides.

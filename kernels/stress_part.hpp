@@ -32,6 +32,15 @@ NANSON_INLINE Tensor<Vec8> cauchy_stress(const Tensor<Vec8>& P, const Tensor<Vec
   return sigma;
 }
 
+/// P + dP of the last stage: what the first stage of the next step averages (full flux correction).
+NANSON_INLINE void add_lagged(Tensor<Vec8>& P, const double* dP) {
+  Vec8 d[3], unused;
+  for (int I = 0; I < 3; ++I) {
+    load_transposed(dP + 4 * I, row::dP, d[0], d[1], d[2], unused);
+    for (int i = 0; i < 3; ++i) P[i][I] = P[i][I] + d[i];
+  }
+}
+
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
 template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting, bool commits>
@@ -66,6 +75,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
       s = Law_::stress(F, H, J, k.material);
     }
     if constexpr (parting == Parting::energy) add_parting(s, F, J, k.material.parting);
+    if (k.leaves_lagged && rows.dP) add_lagged(s.P, rows.dP + row::dP * n);
 
     store_rows(rows, n, v, !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.detF : J, s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);

@@ -138,6 +138,7 @@ inline void adopt_state(Simulation& s) {
   r.X = s.state.X.data(), r.U_new = s.state.U[0].data(), r.H_new = s.state.H[0].data();
   r.W_new = s.state.W[s.state.now].data(), r.PH_new = s.state.PH[s.state.now].data();
   for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = stress_of_part(s, static_cast<int>(p), r, s.coefficients, scratch_of(s, 0));
+  s.state.has_lagged_correction = false;
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   s.ledger.initial_energy = e.kinetic + e.strain, s.ledger.initial_momentum = m.linear, s.ledger.initial_angular_momentum = m.angular;

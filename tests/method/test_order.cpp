@@ -137,7 +137,7 @@ TEST(TimeOrder, IsTwoForTvdRk2AndThreeForSspRk3) {
   for (const TimeCase& c : {TimeCase{"free_rk2", false, false, rk2, 1.85}, {"free_rk3", false, false, rk3, 2.8}, {"loaded_rk2", true, false, rk2, 1.85},
                             {"loaded_rk3", true, false, rk3, 2.75}, {"driven_rk2", true, true, rk2, 1.85}, {"driven_rk3", true, true, rk3, 1.9}})
     for (auto formulation : formulations)
-      for (auto correction : {none, full}) {
+      for (auto correction : corrections) {
         Scene scene = c.loads ? loaded_bar(3) : free_bar(3);
         if (c.loads && !c.prescribed_velocity) scene.boundary.pop_back();
         scene.physics.formulation = formulation, scene.physics.flux_correction = correction;

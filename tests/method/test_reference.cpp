@@ -63,7 +63,7 @@ void shake(Simulation& s) {
 double dissipation_of(Simulation& s) {
   State& u = s.state;
   Rows rows{};
-  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = u.G.data(), rows.Q = u.Q.data(), rows.GP = u.GP.data(), rows.L = u.L.data();
+  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = u.G.data(), rows.dP = u.dP.data(), rows.GP = u.GP.data(), rows.L = u.L.data();
   const auto edges = s.order.edges();
   const auto lists = s.order.lists();
   double power = 0;

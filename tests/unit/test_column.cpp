@@ -47,10 +47,10 @@ double log_uniform(Random& random) { return std::pow(10, uniform(random, -300, 3
 TEST(Column, FmaRoundsAlikeInEveryWidth) {
   Random random(1);
   for (int k = 0; k < 2000; ++k) {
-    const Vec8 a = eight_of(random), b = eight_of(random), c = eight_of(random), wide = nanson::fma(a, b, c);
-    const Vec4 narrow = nanson::fma(low(a), low(b), low(c));
-    for (int i = 0; i < 8; ++i) EXPECT_TRUE(same(wide[i], nanson::fma(a[i], b[i], c[i])));
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(same(narrow[i], nanson::fma(a[i], b[i], c[i])));
+    const Vec8 a = eight_of(random), b = eight_of(random), c = eight_of(random), wide = nanson::fma(a, b, c), minus = nanson::fnma(a, b, c);
+    const Vec4 narrow = nanson::fma(low(a), low(b), low(c)), minus4 = nanson::fnma(low(a), low(b), low(c));
+    for (int i = 0; i < 8; ++i) EXPECT_TRUE(same(wide[i], nanson::fma(a[i], b[i], c[i])) && same(minus[i], nanson::fma(-a[i], b[i], c[i])));
+    for (int i = 0; i < 4; ++i) EXPECT_TRUE(same(narrow[i], nanson::fma(a[i], b[i], c[i])) && same(minus4[i], nanson::fma(-a[i], b[i], c[i])));
   }
 }
 
