@@ -20,7 +20,7 @@ namespace nanson {
 namespace {
 
 constexpr auto linear = Reconstruction::linear;
-constexpr auto none = FluxCorrection::none;
+constexpr auto none = EdgeCorrection::none;
 
 /// Edges once each, colour by colour.
 struct Colours {
@@ -102,10 +102,10 @@ struct Bed {
   }
   const Part& part(int p) const { return s.order.parts[static_cast<std::size_t>(p)]; }
   void flux(const Part& p, const Order& o, const Scratch& scratch) {
-    edge_flux_part<linear, none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none>(p, o.edges(), o.corners(), o.lists(), rows, k, scratch);
+    edge_flux_part<linear, none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, false>(p, o.edges(), o.corners(), o.lists(), rows, k, scratch);
   }
   void accumulate(const Part& p, const Order& o, const Scratch& scratch) {
-    accumulate_update_part<Formulation::pFJ, false>(p, o.edges(), o.lists(), rows, k, s.boundary.constraints.data(), s.state.reactions.data(), scratch);
+    accumulate_update_part<Formulation::pFJ, GradientCorrection::none>(p, o.edges(), o.lists(), rows, k, s.boundary.constraints.data(), s.state.reactions.data(), scratch);
   }
   void stress(int p) { s.reports[static_cast<std::size_t>(p)] = s.functions.stress(part(p), rows, k, s.state.step_length.data()); }
   void gradient(const Order& o) {
@@ -132,7 +132,7 @@ void add_row(double* to, Vec4 row) { store4(to, load4(to) + row); }
 /// Corners of a part onto its nodes' forces, supports, update.
 void finish_part(Bed& bed, const Part& p, const Scratch& scratch) {
   const auto lists = bed.s.order.lists();
-  corner_forces<none>(p, bed.s.order.corners(), lists, bed.rows, bed.k, scratch.corner);
+  corner_forces(p, bed.s.order.corners(), lists, bed.rows, bed.k, scratch.corner);
   for (int n = p.node_begin; n < p.node_end; ++n)
     for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g) add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
   constrain<Materials::one>(p, bed.rows, bed.k, bed.s.boundary.constraints.data(), bed.s.state.reactions.data(), scratch);

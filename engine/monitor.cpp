@@ -192,10 +192,7 @@ double pressure_stabilisation_power(Simulation& s, const Rows& rows) {
 }  // namespace
 
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
-  const auto edges = flux_edges(s);
-  const auto lists = s.order.lists();
-  s.ledger.dissipated +=
-      weighted_dt * sum_over_parts(s, [&](int p) { return s.functions.dissipation(s.order.parts[static_cast<std::size_t>(p)], edges, lists, rows, s.coefficients); });
+  s.ledger.dissipated += weighted_dt * tree_sum(s.part_sums);
   if (s.scene->physics.formulation == Formulation::pFp) s.ledger.dissipated += weighted_dt * pressure_stabilisation_power(s, rows);
   double power = 0;
   for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)

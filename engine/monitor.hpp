@@ -64,7 +64,7 @@ Vec3 reaction(const Simulation& s, int face);
 /// count whose neighbours are all of the same one; NaN where none has a difference of pressure.
 double checkerboard(Simulation& s);
 
-/// One stage's share of dissipation and external work, from the rows of the stage before its update.
+/// One stage's share of dissipation, whose power the edge loops have left in part_sums, and of external work, from the rows that the stage took its rates of.
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
 /// After a stage: its share `mean` in the mean reactions, in impulse and work of supports and body force, and in the angular impulse of all that acts.
 void book_stage(Simulation& s, const double* arms, double mean, bool first);

@@ -9,37 +9,35 @@ namespace {
 
 enum Sum { total, negative, edges, sums, least = sums };
 
-/// The dissipation sweep over one edge at a time: a part of one node whose only out-edge it is.
-void add_part(const Simulation& s, const Rows& rows, const Part& part, double* out) {
+/// The edge loop over one edge at a time: a part without nodes whose only edge it is.
+void add_part(const Simulation& s, const PartFunctions& functions, const Rows& rows, const Part& part, const Scratch& scratch, double* out) {
   const EdgeArrays arrays = flux_edges(s);
-  NodeLists lists = s.order.lists();
-  Part one = part;
-  for (int a = part.node_begin; a < part.node_end; ++a)
-    for (std::int32_t e = s.order.out[static_cast<std::size_t>(a)]; e < s.order.out[static_cast<std::size_t>(a) + 1]; ++e) {
-      if (arrays.b[e] < a) continue;  // the other part's copy counts
-      const std::int32_t ends[2] = {e, e + 1};
-      lists.out = ends - a;
-      one.node_begin = a, one.node_end = a + 1;
-      const double power = s.functions.dissipation(one, arrays, lists, rows, s.coefficients);
-      out[total] += power, out[negative] += power < 0, out[edges] += 1;
-      out[least] = std::min(out[least], power);
-    }
+  for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
+    if (arrays.b[e] < arrays.a[e]) continue;  // the other part's copy counts
+    Part one{};
+    one.edge_begin = e, one.edge_end = e + 1;
+    const double power = functions.edge_flux(one, arrays, flux_corners(s), s.order.lists(), rows, s.coefficients, scratch);
+    out[total] += power, out[negative] += power < 0, out[edges] += 1;
+    out[least] = std::min(out[least], power);
+  }
 }
 
 }  // namespace
 
 EntropyProduction entropy_production(Simulation& s) {
   const Rows rows = stage_rows(s.state, 0, 0);
+  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, s.mixture.empty() ? Materials::one : Materials::several, true,
+                                                      s.state.has_lagged_correction);  // a correction that the next stage takes stays as it is
   find_current_areas(s, rows.U_stage);
   if (s.scene->physics.reconstruction != Reconstruction::constant) {  // of the present state; the next stage computes them again
     const auto arrays = s.order.edges();
     const auto corners = s.order.corners();
     const auto lists = s.order.lists();
-    for_parts(s, [&](int p, Scratch) { s.functions.gradient(s.order.parts[static_cast<std::size_t>(p)], arrays, corners, lists, rows, s.coefficients); });
+    for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[static_cast<std::size_t>(p)], arrays, corners, lists, rows, s.coefficients); });
   }
   const auto sum = sums_over_parts<sums>(s, [&](int p, double* out) {
     out[least] = 1e300;
-    add_part(s, rows, s.order.parts[static_cast<std::size_t>(p)], out);
+    add_part(s, functions, rows, s.order.parts[static_cast<std::size_t>(p)], scratch_of(s, omp_get_thread_num()), out);
   });
   EntropyProduction e{1e300, sum[total], sum[negative] / sum[edges]};
   for (const auto& row : s.part_rows) e.least = std::min(e.least, row[least]);

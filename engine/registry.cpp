@@ -1,4 +1,4 @@
-// Every combination named here is compiled in a translation unit of its own (CMakeLists.txt, engine/instance.cpp.in): many in one file made slower code.
+// Every combination named here is compiled by cmake/PartInstances.cmake, the common ones each in a translation unit of its own: beside others in one file they were slower.
 #include "engine/registry.hpp"
 
 #include <stdexcept>
@@ -15,19 +15,39 @@ auto with(Choice choice, Use use) {
   return use.template operator()<static_cast<Choice>(at)>();
 }
 
+template <class Use>
+void with(bool choice, Use use) {
+  choice ? use.template operator()<true>() : use.template operator()<false>();
+}
+template <class Use>
+void with(EdgeCorrection choice, Use use) {
+  switch (choice) {
+    case EdgeCorrection::none: return use.template operator()<EdgeCorrection::none>();
+    case EdgeCorrection::finds_pressure: return use.template operator()<EdgeCorrection::finds_pressure>();
+    case EdgeCorrection::finds_full: return use.template operator()<EdgeCorrection::finds_full>();
+    case EdgeCorrection::takes_pressure: return use.template operator()<EdgeCorrection::takes_pressure>();
+  }
+}
+
+/// Of a full correction, the stress that is lagged stands in P already.
+EdgeCorrection edge_correction(const PhysicsSpec& p, bool takes_lagged) {
+  if (p.flux_correction == FluxCorrection::pressure) return takes_lagged ? EdgeCorrection::takes_pressure : EdgeCorrection::finds_pressure;
+  return p.flux_correction == FluxCorrection::none || takes_lagged ? EdgeCorrection::none : EdgeCorrection::finds_full;
+}
+
 NodeWeights node_weights(const PhysicsSpec& p) {
   if (p.stabilisation == Stabilisation::jst) return NodeWeights::laplacian;
   return p.reconstruction == Reconstruction::limited ? NodeWeights::limiter : NodeWeights::none;
 }
 
 /// What is compiled: a correction needs gradients, and the rare options do not multiply with each other.
-constexpr bool is_built(Reconstruction r, FluxCorrection c, PressureJump jump, EntropyFix fix) {
-  if (r == Reconstruction::constant && c != FluxCorrection::none) return false;
+constexpr bool is_built(Reconstruction r, EdgeCorrection c, PressureJump jump, EntropyFix fix) {
+  if (r == Reconstruction::constant && c != EdgeCorrection::none) return false;
   return jump == PressureJump::scalar || (r != Reconstruction::limited && fix == EntropyFix::none);
 }
 
-void find_gradient(PartFunctions& f, const PhysicsSpec& p) {
-  const bool tensor = p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear, full = p.flux_correction == FluxCorrection::full;
+void find_gradient(PartFunctions& f, const PhysicsSpec& p, EdgeCorrection correction) {
+  const bool tensor = p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear, full = correction == EdgeCorrection::finds_full;
   switch (node_weights(p)) {
     case NodeWeights::none:
       f.gradient = tensor ? (full ? gradient_part<true, true, NodeWeights::none> : gradient_part<true, false, NodeWeights::none>)
@@ -39,33 +59,30 @@ void find_gradient(PartFunctions& f, const PhysicsSpec& p) {
 }
 
 template <Reconstruction reconstruction, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-void find_upwind(PartFunctions& f, const PhysicsSpec& p) {
+void find_upwind(PartFunctions& f, const PhysicsSpec& p, EdgeCorrection correction, bool audits) {
   const bool with_J = evolves_J(p.formulation);
-  with(p.flux_correction, [&]<FluxCorrection correction>() {
-    if constexpr (is_built(reconstruction, correction, jump, fix)) {
-      f.edge_flux = edge_flux_part<reconstruction, correction, true, jump, metric, fix>;
-      if constexpr (jump == PressureJump::scalar)
-        if (!with_J) f.edge_flux = edge_flux_part<reconstruction, correction, false, jump, metric, fix>;
-    }
+  with(correction, [&]<EdgeCorrection c>() {
+    if constexpr (is_built(reconstruction, c, jump, fix))
+      with(audits, [&]<bool audit>() {
+        f.edge_flux = edge_flux_part<reconstruction, c, true, jump, metric, fix, audit>;
+        if constexpr (jump == PressureJump::scalar)
+          if (!with_J) f.edge_flux = edge_flux_part<reconstruction, c, false, jump, metric, fix, audit>;
+      });
   });
-  if constexpr (is_built(reconstruction, FluxCorrection::none, jump, fix)) {
-    f.dissipation = dissipation_part<reconstruction, true, jump, metric, fix>;
-    if constexpr (jump == PressureJump::scalar)
-      if (!with_J) f.dissipation = dissipation_part<reconstruction, false, jump, metric, fix>;
-  }
 }
 
 /// Several materials: what a scene needs by default, and its leaner forms.
-void find_several(PartFunctions& f, const PhysicsSpec& p) {
+void find_several(PartFunctions& f, const PhysicsSpec& p, bool audits) {
   if (!takes_several_materials(p)) return;
   const bool with_J = evolves_J(p.formulation);
   const auto find = [&]<Reconstruction reconstruction, bool J>() {
-    f.edge_flux = edge_flux_part<reconstruction, FluxCorrection::none, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Materials::several>;
-    f.dissipation = dissipation_part<reconstruction, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Areas::undeformed, Materials::several>;
+    with(audits, [&]<bool audit>() {
+      f.edge_flux = edge_flux_part<reconstruction, EdgeCorrection::none, J, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, audit, Materials::several>;
+    });
   };
   if (p.reconstruction == Reconstruction::linear) with_J ? find.template operator()<Reconstruction::linear, true>() : find.template operator()<Reconstruction::linear, false>();
   else with_J ? find.template operator()<Reconstruction::constant, true>() : find.template operator()<Reconstruction::constant, false>();
-  f.accumulate_update = with_J ? accumulate_update_part<Formulation::pFJ, false, Areas::undeformed, Materials::several> : accumulate_update_part<Formulation::pF, false, Areas::undeformed, Materials::several>;
+  f.accumulate_update = with_J ? accumulate_update_part<Formulation::pFJ, GradientCorrection::none, Areas::undeformed, Materials::several> : accumulate_update_part<Formulation::pF, GradientCorrection::none, Areas::undeformed, Materials::several>;
 }
 
 /// Current areas: {p,F,J}, upwind, nothing rare (method, section 8).
@@ -75,32 +92,30 @@ bool is_built_with_current_areas(const PhysicsSpec& p) {
          p.entropy_fix == EntropyFix::none;
 }
 
-void find_sweeps_with_current_areas(PartFunctions& f, const PhysicsSpec& p) {
-  find_gradient(f, p);
+void find_sweeps_with_current_areas(PartFunctions& f, const PhysicsSpec& p, bool audits) {
+  find_gradient(f, p, EdgeCorrection::none);
   with(p.reconstruction, [&]<Reconstruction reconstruction>() {
     with(p.upwind_metric, [&]<UpwindMetric metric>() {
-      if constexpr (reconstruction != Reconstruction::limited) {
-        f.edge_flux = current_flux_part<reconstruction, metric>;
-        f.dissipation = dissipation_part<reconstruction, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>;
-      }
+      if constexpr (reconstruction != Reconstruction::limited) with(audits, [&]<bool audit>() { f.edge_flux = current_flux_part<reconstruction, metric, audit>; });
     });
   });
-  f.accumulate_update = accumulate_update_part<Formulation::pFJ, false, Areas::current>;
+  f.accumulate_update = accumulate_update_part<Formulation::pFJ, GradientCorrection::none, Areas::current>;
 }
 
-void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
+void find_sweeps(PartFunctions& f, const PhysicsSpec& p, bool audits, bool takes_lagged) {
   if (has_current_areas(p.description)) {
-    if (is_built_with_current_areas(p)) find_sweeps_with_current_areas(f, p);
+    if (is_built_with_current_areas(p)) find_sweeps_with_current_areas(f, p, audits);
     return;
   }
-  find_gradient(f, p);
+  const EdgeCorrection correction = edge_correction(p, takes_lagged);
+  find_gradient(f, p, correction);
   if (p.stabilisation == Stabilisation::jst) {
     f.edge_flux = evolves_J(p.formulation) ? edge_flux_jst_part<true> : edge_flux_jst_part<false>;
   } else {
     with(p.reconstruction, [&]<Reconstruction reconstruction>() {
       with(p.upwind_metric, [&]<UpwindMetric metric>() {
         with(p.entropy_fix, [&]<EntropyFix fix>() {
-          with(p.pressure_jump, [&]<PressureJump jump>() { find_upwind<reconstruction, jump, metric, fix>(f, p); });
+          with(p.pressure_jump, [&]<PressureJump jump>() { find_upwind<reconstruction, jump, metric, fix>(f, p, correction, audits); });
         });
       });
     });
@@ -108,7 +123,9 @@ void find_sweeps(PartFunctions& f, const PhysicsSpec& p) {
   const bool corrected = p.flux_correction != FluxCorrection::none;
   with(p.formulation == Formulation::pFp ? Formulation::pF : p.formulation, [&]<Formulation formulation>() {  // the projection follows the update
     if constexpr (formulation != Formulation::pFp)
-      f.accumulate_update = corrected ? accumulate_update_part<formulation, true> : accumulate_update_part<formulation, false>;
+      f.accumulate_update = !corrected     ? accumulate_update_part<formulation, GradientCorrection::none>
+                            : takes_lagged ? accumulate_update_part<formulation, GradientCorrection::lagged>
+                                           : accumulate_update_part<formulation, GradientCorrection::found>;
   });
 }
 
@@ -166,10 +183,10 @@ bool takes_several_materials(const PhysicsSpec& p) {
          !p.keep_angular_momentum && p.description == Description::total;
 }
 
-PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material, Materials materials) {
+PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material, Materials materials, bool audits, bool takes_lagged) {
   PartFunctions f;
-  if (materials == Materials::several) find_gradient(f, physics), find_several(f, physics);
-  else find_sweeps(f, physics);
+  if (materials == Materials::several) find_gradient(f, physics, EdgeCorrection::none), find_several(f, physics, audits);
+  else find_sweeps(f, physics, audits, takes_lagged);
   find_material(f, physics, material);
   if (!f.edge_flux)
     throw std::invalid_argument(what_is_built);

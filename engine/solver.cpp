@@ -53,6 +53,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
   k.takes_lagged = number == 0 && u.has_lagged_correction;
   k.leaves_lagged = s.scene->physics.flux_correction != FluxCorrection::none && stages == 2 && number == 1;  // at t + dt, as the next step's first stage
+  const PartFunctions& functions = k.takes_lagged ? s.lagged_functions : s.functions;
   Rows rows = stage_rows(u, from, to);
   rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
   const auto edges = s.order.edges();
@@ -70,23 +71,23 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
     for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
   }
   if (has_current_areas(s.scene->physics.description)) s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
-  if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { s.functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
-  if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
+  if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
   s.clock.time("flux_update_stress", [&] {
     for_parts(s, [&](int p, Scratch scratch) {
       const Part& part = s.order.parts[p];
       Rows mine = rows;
       if (!linear) {  // gradients of this part only, as dF/dt
         mine.G = scratch.dG - row::G * static_cast<std::ptrdiff_t>(part.node_begin);
-        s.functions.gradient(part, edges, corners, lists, mine, k);
+        functions.gradient(part, edges, corners, lists, mine, k);
       }
-      s.functions.edge_flux(part, flux_edges, flux_corners, lists, mine, k, scratch);
-      s.functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
+      s.part_sums[p] = functions.edge_flux(part, flux_edges, flux_corners, lists, mine, k, scratch);
+      functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
       if (!s.manufactured.waves.empty()) add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
       if (!projected) s.reports[p] = stress_of_part(s, p, mine, k, scratch);
     });
   });
+  if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
   if (keeps && !broken(s))
     s.clock.time("keep_angular_momentum", [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
   const std::string failure = projected ? project_stage(s, number) : std::string();

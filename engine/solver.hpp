@@ -50,7 +50,7 @@ struct Simulation {
   Projection projection;                  // pFp only
   Manufactured manufactured;              // its body force; empty in all other scenes
   CurrentGeometry current;                // current areas only
-  PartFunctions functions;
+  PartFunctions functions, lagged_functions;  // of a stage; of one that takes the flux correction of the stage before
   Coefficients coefficients;
   std::vector<PartReport> reports;        // one a part
   std::vector<Aligned<double>> scratch;   // one a thread

@@ -56,7 +56,7 @@ inline Work gradient_work(const Carried& c, const Sizes& s) {
 }
 
 /// edge_flux_part: reads W, X, PH, G, GP, dP, L and the edges; its buffer stays in L2. edge_flux_jst_part: PH, L and the edges.
-inline Work edge_flux_work(const Carried& c, const Sizes& s) {
+inline Work edge_flux_work(const Carried& c, const Sizes& s, bool audits = false) {
   const double n = c.w;
   Work out;
   if (c.jst) {
@@ -73,6 +73,7 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s) {
   if (c.fixed) flops += 5 + 5 + 3 + 6 + (c.J ? 2 : 0) + 3;              // (c.plain); (d.plain); signs; normal and tangential parts
   flops += 5 + 2 + 2 + 2 + (c.deformed ? 2 : 0) + 6 + 12;               // c.c; shear; 1/(c.c cn); normal; root and comparison; (c.d); D^p
   if (c.J) flops += 3 + 2;                                              // D^J
+  if (audits) flops += 5 + 5 + 4 + 1 + (c.J ? 2 : 0);                   // (d.plain); (c.plain); power
   if (c.pressure) flops += 1;
   if (c.full) flops += 9 + 3 + 18;                                      // average of dP times C, and to the traction
   if (c.tensor) flops += 9 * (1 + 2) + 5 + 1 + (c.linear ? 9 * 3 * 3 : 0);  // jump of P times C, along c
@@ -96,17 +97,6 @@ inline Work accumulate_update_work(const Carried& c, const Sizes& s, bool alone)
 inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {
   const double written = s.nodes >= streaming_nodes ? 1 : 2;
   return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + written * (bytes::W + bytes::PH)), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
-}
-
-/// dissipation_part: reads what edge_flux reads; each edge between parts is counted once and skipped once.
-inline Work dissipation_work(const PhysicsSpec& p, const Sizes& s, double mesh_edges) {
-  PhysicsSpec plain = p;
-  plain.flux_correction = FluxCorrection::none;
-  Sizes counted = s;
-  counted.corners = 0;
-  Work out = edge_flux_work(Carried(plain), counted);
-  out.flops *= mesh_edges / s.edges;
-  return out;
 }
 
 /// A step of the fused schedule with linear reconstruction: two sweeps a stage. With two stages the first takes the flux correction that the last of the step before has

@@ -11,9 +11,6 @@ NANSON_INLINE double density(const Rows& rows, const Coefficients& k, int n) {
   else return k.material.rho;
 }
 
-/// What a stage does about the flux correction of the velocity gradient: there is none | it takes that of the step before | it finds it.
-enum class GradientCorrection { none, lagged, found };
-
 /// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
 /// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
 template <GradientCorrection correction, Materials materials>
@@ -117,17 +114,12 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
   }
 }
 
-template <Formulation formulation, bool corrected, Areas areas, Materials materials>
+template <Formulation formulation, GradientCorrection correction, Areas areas, Materials materials>
 void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                             const Constraint* constraints, double* reactions, const Scratch& scratch) {
-  const auto run = [&]<GradientCorrection correction>() {
-    gather<correction, materials>(part, edges, lists, rows, k, scratch);
-    constrain<materials>(part, rows, k, constraints, reactions, scratch);
-    update<formulation, correction, areas, materials>(part, rows, k, scratch);
-  };
-  if constexpr (!corrected) run.template operator()<GradientCorrection::none>();
-  else if (k.takes_lagged) run.template operator()<GradientCorrection::lagged>();
-  else run.template operator()<GradientCorrection::found>();
+  gather<correction, materials>(part, edges, lists, rows, k, scratch);
+  constrain<materials>(part, rows, k, constraints, reactions, scratch);
+  update<formulation, correction, areas, materials>(part, rows, k, scratch);
 }
 
 }  // namespace nanson

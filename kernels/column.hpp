@@ -92,6 +92,18 @@ NANSON_INLINE Vec8 root(Vec8 x) {
 #endif
 }
 
+/// Lanes where a < b, of eight numbers each.
+NANSON_INLINE Mask8 less8(const std::int32_t* a, const std::int32_t* b) {
+  typedef std::int32_t Int8 __attribute__((vector_size(32), aligned(4)));
+  return __builtin_convertvector(*reinterpret_cast<const Int8*>(a) < *reinterpret_cast<const Int8*>(b), Mask8);
+}
+
+/// Sum of the lanes, pair by pair.
+NANSON_INLINE double sum(Vec8 x) {
+  const Vec4 s = low(x) + high(x);
+  return (s[0] + s[1]) + (s[2] + s[3]);
+}
+
 /// a where the condition holds, else b. A comparison with NaN does not hold.
 NANSON_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
 NANSON_INLINE Vec4 choose(Mask4 condition, Vec4 a, Vec4 b) { return condition ? a : b; }

@@ -37,12 +37,14 @@ NANSON_INLINE void current_corner_forces(const Part& part, const CornerArrays& c
     }
 }
 
-template <Reconstruction reconstruction, UpwindMetric metric>
-void current_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
+template <Reconstruction reconstruction, UpwindMetric metric, bool audits>
+double current_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                        const Scratch& scratch) {
-  edge_fluxes<reconstruction, FluxCorrection::none, false, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge);
+  const double power =
+      edge_fluxes<reconstruction, EdgeCorrection::none, audits, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge);
   current_corner_forces(part, corners, lists, rows, scratch.corner);
   cell_motion(part, edges, corners, lists, rows);
+  return power;
 }
 
 }  // namespace nanson

@@ -23,36 +23,20 @@ NANSON_INLINE Vec4 traction_jump(const Rows& rows, int a, int b, const double (&
   return y;
 }
 
-/// Stabilisation of an edge and the jump it acts on.
-struct EdgeStabilisation {
-  Stabiliser s;
-  Vec4 d;                         // reconstructed jump of {v, Sigma_J}, lane 3 replaced by c . (jump of P) C for the tensor pressure jump
-};
-template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix>
-NANSON_INLINE EdgeStabilisation edge_stabilisation(const Rows& rows, int a, int b, const double (&C)[3], double size, Vec4 plain, Vec4 D, Vec4 c, double rho_cp,
-                                                   double rho_cs) {
-  const double cc = dot3(c, c)[0];
-  EdgeCoefficients s = edge_coefficients<metric>(cc, size, rho_cp, rho_cs);
-  Vec4 d = reconstructed_jump<reconstruction>(rows, a, b, plain, D);
-  if constexpr (!evolves_J) s.volume = 0;
-  if constexpr (evolves_J && jump == PressureJump::tensor) {
-    d[3] = dot3(c, traction_jump<reconstruction>(rows, a, b, C, D))[0];
-    s.volume = s.volume / cc;
-  }
-  return {stabiliser<fix>(s, plain, d, c, cc), d};
-}
+constexpr bool finds(EdgeCorrection c) { return c == EdgeCorrection::finds_pressure || c == EdgeCorrection::finds_full; }
+constexpr bool adds_pressure(EdgeCorrection c) { return c == EdgeCorrection::finds_pressure || c == EdgeCorrection::takes_pressure; }
 
 /// Edges in two passes: gathered one by one as columns, then finished eight at a time as lanes, so that roots and quotients are not waited for edge by edge.
 inline constexpr int edge_block = 64;
 struct EdgeBlock {
   alignas(64) double tc[8 * edge_block];     // {P_ave C, 0 | H_ave C, 0} [N], [m^2]
   alignas(64) double d[4 * edge_block];      // reconstructed jump of {v, Sigma_J}
-  alignas(64) double plain[4 * edge_block];  // nodal jump, entropy fix only
+  alignas(64) double plain[4 * edge_block];  // nodal jump, entropy fix and audit only
   alignas(64) double y[4 * edge_block];      // (P+ - P-) C, tensor pressure jump only
 };
 
 /// First pass over edges [begin, end): central traction and area, jumps; q = (theta/4)(G_a - G_b) . D into the second half of the flux rows.
-template <Reconstruction reconstruction, FluxCorrection correction, bool finds, PressureJump jump, EntropyFix fix, Areas areas>
+template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, PressureJump jump, EntropyFix fix, Areas areas>
 NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta, EdgeBlock& block, double* flux) {
   constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
   for (int e = begin; e < end; ++e) {
@@ -60,7 +44,7 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
     __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
     if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
-    if constexpr (correction == FluxCorrection::full) __builtin_prefetch(rows.dP + row::dP * next), __builtin_prefetch(rows.dP + row::dP * next + 8);
+    if constexpr (correction == EdgeCorrection::finds_full) __builtin_prefetch(rows.dP + row::dP * next), __builtin_prefetch(rows.dP + row::dP * next + 8);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
     const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
@@ -69,17 +53,17 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
     if constexpr (areas == Areas::current) tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
-    if constexpr (correction == FluxCorrection::full) tc = concat(low(tc) + average_traction(rows.dP + row::dP * a, rows.dP + row::dP * b, C), high(tc));
+    if constexpr (correction == EdgeCorrection::finds_full) tc = concat(low(tc) + average_traction(rows.dP + row::dP * a, rows.dP + row::dP * b, C), high(tc));
     const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
     store8(block.tc + 8 * at, tc);
     store4(block.d + 4 * at, reconstructed_jump<reconstruction>(rows, a, b, plain, D));
-    if constexpr (fix != EntropyFix::none) store4(block.plain + 4 * at, plain);
+    if constexpr (fix != EntropyFix::none || audits) store4(block.plain + 4 * at, plain);
     if constexpr (jump == PressureJump::tensor) store4(block.y + 4 * at, traction_jump<reconstruction>(rows, a, b, C, D));
-    if constexpr (finds) {
+    if constexpr (finds(correction)) {
       const Vec4 q = difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * theta);
       store4(flux + 8 * at + 4, q);
-      if constexpr (correction == FluxCorrection::pressure) rows.lagged_q[e] = q[3];
+      if constexpr (correction == EdgeCorrection::finds_pressure) rows.lagged_q[e] = q[3];
     }
   }
 }
@@ -89,16 +73,17 @@ NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lag
   for (const double* U : {rows.U_old, takes_lagged ? rows.lagged_dG : rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
 }
 
-/// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`.
-template <FluxCorrection correction, bool finds, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
-NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q, double* flux) {
-  constexpr int width = finds ? 8 : 4;
+/// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`. Returns the power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J
+/// with the plain nodal differences (paper, eq. 71; method, section 11), where the scene audits [W].
+template <EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
+NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q, double* flux) {
+  constexpr int width = finds(correction) ? 8 : 4;
   const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
   Vec8 t[4], c[4], d[4], plain[4]{}, y[4];
   load_transposed(block.tc + 8 * at, 8, t[0], t[1], t[2], t[3]);
   load_transposed(block.tc + 8 * at + 4, 8, c[0], c[1], c[2], c[3]);
   load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
-  if constexpr (fix != EntropyFix::none) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
+  if constexpr (fix != EntropyFix::none || audits) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
   const Vec8 cc = dot(c, c);
   EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, size, rho_cp, rho_cs);
   if constexpr (!evolves_J) s.volume = Vec8{};
@@ -107,64 +92,53 @@ NANSON_INLINE void finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho
     d[3] = dot(c, y), s.volume = s.volume / cc;
   }
   StabiliserOf<Vec8> u = stabiliser<fix, Vec8>(s, cc, dot(c, d), dot(c, plain), dot(d, plain), d[3] * plain[3]);
-  if constexpr (correction == FluxCorrection::pressure) u.along = u.along + load8_anywhere(q);
+  Vec8 power{};
+  if constexpr (audits) power = fma(u.shear, dot(d, plain), fma(u.along, dot(c, plain), u.volume * d[3] * plain[3]));
+  if constexpr (adds_pressure(correction)) u.along = u.along + load8_anywhere(q);
   Vec8 f[3];
   for (int i = 0; i < 3; ++i) f[i] = fma(u.shear, d[i], fma(u.along, c[i], t[i]));
   store_transposed(flux, width, f[0], f[1], f[2], u.volume * d[3]);
+  return power;
+}
+
+/// Of eight edges, those that are the part's to count: not past its end, and of an edge between two parts one copy (inside a part a < b always).
+NANSON_INLINE Mask8 counted(const EdgeArrays& edges, std::ptrdiff_t e, int left) {
+  const Vec8 lane{0, 1, 2, 3, 4, 5, 6, 7};
+  return less8(edges.a + e, edges.b + e) & (lane < static_cast<double>(left));
 }
 
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums, differences and products of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
-/// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone.
-template <Reconstruction reconstruction, FluxCorrection correction, bool finds, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
+/// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone. Returns the power of the stabilisation [W].
+template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
           Areas areas = Areas::undeformed, Materials materials = Materials::one>
-NANSON_INLINE void edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
-  constexpr int width = finds ? 8 : 4, nodes_ahead = 40;
+NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
+  constexpr int width = finds(correction) ? 8 : 4, nodes_ahead = 40;
   EdgeBlock block{};
+  Vec8 power{};
   for (int begin = part.edge_begin; begin < part.edge_end; begin += edge_block) {
     const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
     double* flux = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
-    gather_edges<reconstruction, correction, finds, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
+    gather_edges<reconstruction, correction, audits, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
     for (int at = 0; at < count; at += 8) {
       prefetch_U(edges.a[begin + at] + nodes_ahead, rows, k.takes_lagged);
       const double* q = nullptr;
-      if constexpr (correction == FluxCorrection::pressure) q = rows.lagged_q + begin + at;
+      if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at;
       const Vec8 size = edge_sizes(edges, begin + at);
+      Vec8 of_edges;
       if constexpr (materials == Materials::several)
-        finish_edges<correction, finds, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at), load8_anywhere(edges.rho_cs + begin + at), q, flux + width * at);
-      else finish_edges<correction, finds, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, q, flux + width * at);
+        of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at),
+                                                                                         load8_anywhere(edges.rho_cs + begin + at), q, flux + width * at);
+      else of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, q, flux + width * at);
+      if constexpr (audits) power = power + choose(counted(edges, begin + at, count - at), of_edges, Vec8{});
     }
   }
+  return sum(power);
 }
 
-/// Power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J with the plain nodal differences (paper, eq. 71; method, section 11).
-template <Reconstruction reconstruction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas, Materials materials>
-double dissipation_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
-  double power = 0;
-  for (int a = part.node_begin; a < part.node_end; ++a)
-    for (std::int32_t e = lists.out[a]; e < lists.out[a + 1]; ++e) {
-      const std::int32_t b = edges.b[e];
-      if (b < a) continue;  // the other part's copy counts; inside a part a < b always
-      const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
-      const double* PHa = rows.PH + row::PH * a;
-      const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
-      Vec4 c;
-      if constexpr (areas == Areas::current) c = Vec4{edges.c[0][e], edges.c[1][e], edges.c[2][e], 0.0};
-      else c = high(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
-      const Vec4 plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a), D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a);
-      double rho_cp = k.rho_cp, rho_cs = k.rho_cs;
-      if constexpr (materials == Materials::several) rho_cp = edges.rho_cp[e], rho_cs = edges.rho_cs[e];
-      const EdgeStabilisation u = edge_stabilisation<reconstruction, evolves_J, jump, metric, fix>(rows, a, b, C, edge_size(edges, e), plain, D, c, rho_cp, rho_cs);
-      const Vec4 p = plain * fma(u.s.k, u.d, broadcast4(u.s.along) * c);
-      power += ((p[0] + p[1]) + p[2]) + p[3];
-    }
-  return power;
-}
-
-/// Corners: adjoint boundary flux (2 P_a - P_b - P_c)/8 C_gamma (method, section 3) and the load on the face.
-template <FluxCorrection correction>
+/// Corners: adjoint boundary flux (2 P_a - P_b - P_c)/8 C_gamma (method, section 3) and the load on the face; `full`: with the correction of the stress.
+template <bool full = false>
 NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
-  constexpr bool full = correction == FluxCorrection::full;
   const auto stress = [&](std::ptrdiff_t n, int I) {
     const Vec4 P = load4(rows.PH + row::PH * n + 8 * I);
     if constexpr (full) return P + load4(rows.dP + row::dP * n + 4 * I);
@@ -183,16 +157,12 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
     }
 }
 
-template <Reconstruction reconstruction, FluxCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Materials materials>
-void edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
-                    const Scratch& scratch) {
-  const auto run = [&]<FluxCorrection adds, bool finds>() {
-    edge_fluxes<reconstruction, adds, finds, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
-    corner_forces<adds>(part, corners, lists, rows, k, scratch.corner);
-  };
-  if constexpr (correction == FluxCorrection::none) run.template operator()<correction, false>();
-  else if (!k.takes_lagged) run.template operator()<correction, true>();
-  else run.template operator()<correction == FluxCorrection::full ? FluxCorrection::none : correction, false>();
+template <Reconstruction reconstruction, EdgeCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, bool audits, Materials materials>
+double edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
+                      const Scratch& scratch) {
+  const double power = edge_fluxes<reconstruction, correction, audits, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
+  corner_forces<correction == EdgeCorrection::finds_full>(part, corners, lists, rows, k, scratch.corner);
+  return power;
 }
 
 }  // namespace nanson

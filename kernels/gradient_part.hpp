@@ -171,8 +171,6 @@ NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const Corner
 
 template <bool tensor_jump, bool full_correction, NodeWeights weights>
 void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
-  if constexpr (full_correction)
-    if (k.takes_lagged) return gradient_part<tensor_jump, false, weights>(part, edges, corners, lists, rows, k);
   for (int n = part.node_begin; n < part.node_end; ++n) {
     Vec4 gradient_P[3][3];
     if constexpr (full_correction)

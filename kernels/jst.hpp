@@ -8,7 +8,7 @@ inline constexpr double jst_k4_p = 1.0 / 256, jst_k4_J = 1.0 / 8192;  // [-] cap
 
 /// Flux {P_ave C - k4_p rho cp |C| (L_b(v) - L_a(v)), -k4_J cp |C| (L_b(J) - L_a(J))}; L in row L, W = {v, J}.
 template <bool evolves_J>
-void edge_flux_jst_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
+double edge_flux_jst_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                         const Scratch& scratch) {
   const double of_v = -jst_k4_p * k.rho_cp, of_J = evolves_J ? -jst_k4_J * k.material.cp : 0.0;
   const Vec4 scale{of_v, of_v, of_v, of_J};
@@ -23,7 +23,8 @@ void edge_flux_jst_part(const Part& part, const EdgeArrays& edges, const CornerA
       store4(scratch.edge + 4 * (e - part.edge_begin), fma((load4(rows.L + row::L * b) - La) * broadcast4(edge_size(edges, e)), scale, t));
     }
   }
-  corner_forces<FluxCorrection::none>(part, corners, lists, rows, k, scratch.corner);
+  corner_forces(part, corners, lists, rows, k, scratch.corner);
+  return 0;
 }
 
 }  // namespace nanson

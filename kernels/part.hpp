@@ -144,20 +144,28 @@ enum class NodeWeights { none, limiter, laplacian };
 /// What fluxes multiply stresses with: the undeformed area vectors C, P and H; or the current ones c and the Cauchy stress.
 enum class Areas { undeformed, current };
 
+/// What an edge loop does about the flux correction: nothing, also where the lagged one of the full correction stands in P; finds that of the pressure or of the whole
+/// stress, with that of the velocity gradient; takes that of the pressure from where the last stage has left it.
+enum class EdgeCorrection { none, finds_pressure, finds_full, takes_pressure };
+
+/// What an update does about the flux correction of the velocity gradient: there is none | it takes that of the last stage | it finds it.
+enum class GradientCorrection { none, lagged, found };
+
 // The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.
 template <bool tensor_jump, bool full_correction, NodeWeights>
 void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
-template <Reconstruction, FluxCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Materials = Materials::one>
-void edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+/// The edge loops return the power that the stabilisation takes out of the edges that the part counts [W], where they audit, else 0 (jst: always).
+template <Reconstruction, EdgeCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, bool audits, Materials = Materials::one>
+double edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
 template <bool evolves_J>
-void edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+double edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
-template <Reconstruction, UpwindMetric>
-void current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+template <Reconstruction, UpwindMetric, bool audits>
+double current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
 
-template <Formulation, bool corrected, Areas = Areas::undeformed, Materials = Materials::one>
+template <Formulation, GradientCorrection, Areas = Areas::undeformed, Materials = Materials::one>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
                             const Scratch&);
 
@@ -166,10 +174,6 @@ PartReport stress_part(const Part&, const Rows&, const Coefficients&, const doub
 
 template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
-
-/// Power [W] that the stabilisation takes out of the edges a part counts (those to other parts are counted once): a monitor's sweep, over the rows of a stage.
-template <Reconstruction, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, Areas = Areas::undeformed, Materials = Materials::one>
-double dissipation_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&);
 
 /// Strain energy of a part's nodes in U_new, H_new [J].
 template <Law, Volumetric, Isochoric, Formulation, Parting = Parting::none>

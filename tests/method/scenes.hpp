@@ -168,6 +168,15 @@ inline void push(Simulation& s, const Vec3& v) {
   adopt_state(s);
 }
 
+/// Power that the stabilisation takes out of the rows W, PH and G as they stand [W].
+inline double dissipated_power(Simulation& s) {
+  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, Materials::one, true, s.state.has_lagged_correction);
+  double power = 0;
+  for (const Part& part : s.order.parts)
+    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), s.order.lists(), stage_rows(s.state, 0, 0), s.coefficients, scratch_of(s, 0));
+  return power;
+}
+
 /// Rates of the rows W and PH as they stand, with the loads as they stand: dU/dt in rows of U, and the uncorrected gradient G.
 struct Rates {
   Aligned<double> U, G;

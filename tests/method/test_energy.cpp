@@ -272,22 +272,16 @@ double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation f
   Aligned<double> G(row::G * s.order.rows, 0.0);
   Rows rows{};
   rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = G.data();
-  const auto edges = s.order.edges();
-  NodeLists lists = s.order.lists();
-  for (const Part& part : s.order.parts) s.functions.gradient(part, edges, s.order.corners(), lists, rows, s.coefficients);
+  for (const Part& part : s.order.parts) s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+  const PartFunctions audited = find_part_functions(scene.physics, scene.material, Materials::one, true);
   double least = 1e300;
   total = 0;
-  Aligned<std::int32_t> out(s.order.out);
-  lists.out = out.data();
-  for (int a : real_rows(s))
-    for (int e = s.order.out[a]; e < s.order.out[a + 1]; ++e) {
-      Part one{};
-      one.node_begin = a, one.node_end = a + 1;
-      out[a] = e, out[a + 1] = e + 1;
-      const double power = s.functions.dissipation(one, edges, lists, rows, s.coefficients);
-      least = std::min(least, power), total += power;
-      out[a] = s.order.out[a], out[a + 1] = s.order.out[a + 1];
-    }
+  for (int e = 0; e < s.order.out.back(); ++e) {
+    Part one{};
+    one.edge_begin = e, one.edge_end = e + 1;
+    const double power = audited.edge_flux(one, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients, scratch_of(s, 0));
+    least = std::min(least, power), total += power;
+  }
   return least / total;
 }
 

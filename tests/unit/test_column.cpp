@@ -54,6 +54,15 @@ TEST(Column, FmaRoundsAlikeInEveryWidth) {
   }
 }
 
+TEST(Column, LanesAreComparedAndSummed) {
+  const std::int32_t a[9] = {0, 1, 5, -3, 7, 7, 2, 1 << 30, 9}, b[9] = {0, 2, 1, 4, 7, 8, -2, 3, 10};
+  for (int from : {0, 1}) {  // from any address
+    const Mask8 less = less8(a + from, b + from);
+    for (int i = 0; i < 8; ++i) EXPECT_EQ(less[i] != 0, a[from + i] < b[from + i]);
+  }
+  EXPECT_EQ(nanson::sum(Vec8{1, 2, 4, 8, 16, 32, 64, 128}), 255.0);
+}
+
 TEST(Column, RootRoundsAlikeInEveryWidth) {
   Random random(2);
   for (int k = 0; k < 2000; ++k) {
