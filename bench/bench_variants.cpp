@@ -122,7 +122,7 @@ void each_flux(const Bed& bed, const EdgeArrays& edges, int begin, int end, Use 
     const int count = std::min(end - from, edge_block);
     gather_edges<linear, none, false, PressureJump::scalar, EntropyFix::none, Areas::undeformed>(from, from + count, edges, bed.rows, bed.k.theta, block, flux);
     for (int at = 0; at < count; at += 8)
-      finish_edges<none, false, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, nullptr, flux + 4 * at);
+      finish_edges<none, false, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Areas::undeformed>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, nullptr, nullptr, flux + 4 * at);
     for (int at = 0; at < count; ++at) use(from + at, load4(flux + 4 * at));
   }
 }

@@ -11,15 +11,15 @@ namespace nanson {
 
 /// Doubles of the buffers of one thread, for the largest part and any scheme.
 inline std::size_t part_scratch(const Order& o) {
-  return static_cast<std::size_t>(8 * (o.most_edges + 8) + 4 * o.most_corners + (4 + 12) * o.most_nodes);
+  return static_cast<std::size_t>((8 + 1) * (o.most_edges + 8) + 4 * o.most_corners + (4 + 12) * o.most_nodes);
 }
 
 inline Scratch scratch_of(Simulation& s, int thread) {
   double* p = s.scratch[static_cast<std::size_t>(thread)].data();
   const bool corrected = s.scene->physics.flux_correction != FluxCorrection::none;
   const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.order.most_edges + 8), corner = 4 * static_cast<std::ptrdiff_t>(s.order.most_corners),
-                       force = 4 * static_cast<std::ptrdiff_t>(s.order.most_nodes);
-  return {p, p + edge, p + edge + corner, p + edge + corner + force};
+                       force = 4 * static_cast<std::ptrdiff_t>(s.order.most_nodes), dG = 3 * force;
+  return {p, p + edge, p + edge + corner, p + edge + corner + force, p + edge + corner + force + dG};
 }
 
 /// Runs sweep(part index, scratch) over all parts; parts stay with their thread from sweep to sweep.

@@ -35,6 +35,10 @@ NANSON_INLINE Vec8 load8_anywhere(const double* p) {
   typedef double Loose8 __attribute__((vector_size(64), aligned(8)));
   return *reinterpret_cast<const Loose8*>(p);
 }
+NANSON_INLINE void store8_anywhere(double* p, Vec8 v) {
+  typedef double Loose8 __attribute__((vector_size(64), aligned(8)));
+  *reinterpret_cast<Loose8*>(p) = v;
+}
 NANSON_INLINE void store4(double* p, Vec4 v) { *reinterpret_cast<Vec4*>(p) = v; }
 NANSON_INLINE void store8(double* p, Vec8 v) { *reinterpret_cast<Vec8*>(p) = v; }
 

@@ -1,23 +1,22 @@
 // Fluxes with current area vectors and the Cauchy stress (paper, eq. 48, 49), and the rate of J by the motion of the dual cell; {p,F,J}.
 #pragma once
 #include "kernels/edge_flux_part.hpp"
-#include "kernels/gradient_part.hpp"
 
 namespace nanson {
 
 /// dJ/dt = (1/Omega0) [sum_b (v_b - v_a)/2 . c + sum_gamma (v_b + v_c - 2 v_a)/8 . c_gamma] [1/s]: (48d) with relative velocities. The same where the areas close,
-/// and right where they do not (pseudo_updated; method, section 8): a translation gives zero bitwise.
-NANSON_INLINE void cell_motion(const Part& part, EdgeArrays edges, CornerArrays corners, const NodeLists& lists, const Rows& rows) {
-  for (int i = 0; i < 3; ++i) edges.C[i] = edges.c[i], corners.C[i] = corners.c_gamma[i];  // `around` visits what stands in C
+/// and right where they do not (pseudo_updated; method, section 8): a translation gives zero bitwise. An edge's share is the same from both ends: the edge loop has left it.
+NANSON_INLINE void cell_motion(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const double* motion) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
+    double sum = 0;
+    for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) sum += motion[e - part.edge_begin];
+    for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) sum += motion[lists.in_edges[i] - part.edge_begin];
     const Vec4 Wa = load4(rows.W + row::W * n);
-    Vec4 s{};
-    around(
-        n, edges, corners, lists, [&](auto sense, std::int32_t e, int b) { s = add_product(sense, load4(rows.W + row::W * b) - Wa, Vec4{edges.C[0][e], edges.C[1][e], edges.C[2][e], 0.0}, s); },
-        [&](int b, int c, double c0, double c1, double c2) {
-          s = fma(((load4(rows.W + row::W * b) - Wa) + (load4(rows.W + row::W * c) - Wa)) * 0.25, Vec4{c0, c1, c2, 0.0}, s);
-        });
-    rows.dJ[n] = 0.5 * rows.X[row::X * n + 3] * ((s[0] + s[1]) + s[2]);
+    for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) {
+      const Vec4 d = ((load4(rows.W + row::W * corners.b[g]) - Wa) + (load4(rows.W + row::W * corners.c[g]) - Wa)) * 0.25;
+      sum += fma(d[2], corners.c_gamma[2][g], fma(d[1], corners.c_gamma[1][g], d[0] * corners.c_gamma[0][g]));
+    }
+    rows.dJ[n] = 0.5 * rows.X[row::X * n + 3] * sum;
   }
 }
 
@@ -41,9 +40,9 @@ template <Reconstruction reconstruction, UpwindMetric metric, bool audits>
 double current_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                        const Scratch& scratch) {
   const double power =
-      edge_fluxes<reconstruction, EdgeCorrection::none, audits, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge);
+      edge_fluxes<reconstruction, EdgeCorrection::none, audits, true, PressureJump::scalar, metric, EntropyFix::none, Areas::current>(part, edges, rows, k, scratch.edge, scratch.motion);
   current_corner_forces(part, corners, lists, rows, scratch.corner);
-  cell_motion(part, edges, corners, lists, rows);
+  cell_motion(part, corners, lists, rows, scratch.motion);
   return power;
 }
 

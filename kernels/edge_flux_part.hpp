@@ -31,7 +31,7 @@ inline constexpr int edge_block = 64;
 struct EdgeBlock {
   alignas(64) double tc[8 * edge_block];     // {P_ave C, 0 | H_ave C, 0} [N], [m^2]
   alignas(64) double d[4 * edge_block];      // reconstructed jump of {v, Sigma_J}
-  alignas(64) double plain[4 * edge_block];  // nodal jump, entropy fix and audit only
+  alignas(64) double plain[4 * edge_block];  // nodal jump; entropy fix, audit, current areas
   alignas(64) double y[4 * edge_block];      // (P+ - P-) C, tensor pressure jump only
 };
 
@@ -58,7 +58,7 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     const int at = e - begin;
     store8(block.tc + 8 * at, tc);
     store4(block.d + 4 * at, reconstructed_jump<reconstruction>(rows, a, b, plain, D));
-    if constexpr (fix != EntropyFix::none || audits) store4(block.plain + 4 * at, plain);
+    if constexpr (fix != EntropyFix::none || audits || areas == Areas::current) store4(block.plain + 4 * at, plain);
     if constexpr (jump == PressureJump::tensor) store4(block.y + 4 * at, traction_jump<reconstruction>(rows, a, b, C, D));
     if constexpr (finds(correction)) {
       const Vec4 q = difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * theta);
@@ -75,15 +75,15 @@ NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lag
 
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`. Returns the power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J
 /// with the plain nodal differences (paper, eq. 71; method, section 11), where the scene audits [W].
-template <EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, class Z>
-NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q, double* flux) {
+template <EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas, class Z>
+NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q, double* motion, double* flux) {
   constexpr int width = finds(correction) ? 8 : 4;
   const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
   Vec8 t[4], c[4], d[4], plain[4]{}, y[4];
   load_transposed(block.tc + 8 * at, 8, t[0], t[1], t[2], t[3]);
   load_transposed(block.tc + 8 * at + 4, 8, c[0], c[1], c[2], c[3]);
   load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
-  if constexpr (fix != EntropyFix::none || audits) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
+  if constexpr (fix != EntropyFix::none || audits || areas == Areas::current) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
   const Vec8 cc = dot(c, c);
   EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, size, rho_cp, rho_cs);
   if constexpr (!evolves_J) s.volume = Vec8{};
@@ -92,6 +92,7 @@ NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho
     d[3] = dot(c, y), s.volume = s.volume / cc;
   }
   StabiliserOf<Vec8> u = stabiliser<fix, Vec8>(s, cc, dot(c, d), dot(c, plain), dot(d, plain), d[3] * plain[3]);
+  if constexpr (areas == Areas::current) store8_anywhere(motion, dot(c, plain));
   Vec8 power{};
   if constexpr (audits) power = fma(u.shear, dot(d, plain), fma(u.along, dot(c, plain), u.volume * d[3] * plain[3]));
   if constexpr (adds_pressure(correction)) u.along = u.along + load8_anywhere(q);
@@ -112,7 +113,7 @@ NANSON_INLINE Mask8 counted(const EdgeArrays& edges, std::ptrdiff_t e, int left)
 /// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone. Returns the power of the stabilisation [W].
 template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
           Areas areas = Areas::undeformed, Materials materials = Materials::one>
-NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer) {
+NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer, double* motion = nullptr) {
   constexpr int width = finds(correction) ? 8 : 4, nodes_ahead = 40;
   EdgeBlock block{};
   Vec8 power{};
@@ -125,11 +126,13 @@ NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const
       const double* q = nullptr;
       if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at;
       const Vec8 size = edge_sizes(edges, begin + at);
+      double* of_motion = nullptr;
+      if constexpr (areas == Areas::current) of_motion = motion + (begin + at - part.edge_begin);
       Vec8 of_edges;
       if constexpr (materials == Materials::several)
-        of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix>(block, at, size, load8_anywhere(edges.rho_cp + begin + at),
-                                                                                         load8_anywhere(edges.rho_cs + begin + at), q, flux + width * at);
-      else of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix>(block, at, size, k.rho_cp, k.rho_cs, q, flux + width * at);
+        of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(block, at, size, load8_anywhere(edges.rho_cp + begin + at),
+                                                                                         load8_anywhere(edges.rho_cs + begin + at), q, of_motion, flux + width * at);
+      else of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(block, at, size, k.rho_cp, k.rho_cs, q, of_motion, flux + width * at);
       if constexpr (audits) power = power + choose(counted(edges, begin + at, count - at), of_edges, Vec8{});
     }
   }

@@ -129,6 +129,7 @@ struct Scratch {
   double* corner;               // row of 4 {force, 0} a boundary corner
   double* force;                // row of 4 {force, J source} a node
   double* dG;                   // row of 12 a node, where a flux correction is found
+  double* motion = nullptr;     // [m^3/s] (v_b - v_a) . c an edge, current areas only; eight more are overwritten
 };
 
 /// What a part reports after its update: never checked inside, the step decides.
