@@ -36,6 +36,12 @@ Scene with(FluxCorrection correction) {
   return scene;
 }
 
+Scene with_energy_audit() {
+  Scene scene = column();
+  scene.monitor.energy = true;
+  return scene;
+}
+
 Scene layers() {
   Scene scene = column();
   scene.mesh.regions = {Axis::z, {3.0}, {"low", "high"}};
@@ -91,8 +97,8 @@ void time_option(benchmark::State& state, const Scene& scene) {
 }  // namespace
 
 void register_step_options() {
-  for (const auto& [name, scene] : {std::pair("pressure", with(FluxCorrection::pressure)), std::pair("full", with(FluxCorrection::full)), std::pair("updated", with(Description::updated)),
-                                    std::pair("pseudo_updated", with(Description::pseudo_updated)), std::pair("several_materials", layers())})
+  for (const auto& [name, scene] : {std::pair("pressure", with(FluxCorrection::pressure)), std::pair("full", with(FluxCorrection::full)), std::pair("energy_audit", with_energy_audit()),
+                                    std::pair("updated", with(Description::updated)), std::pair("pseudo_updated", with(Description::pseudo_updated)), std::pair("several_materials", layers())})
     benchmark::RegisterBenchmark(fmt::format("option/{}", name).c_str(), [scene = scene](benchmark::State& state) { time_option(state, scene); })
         ->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1);
 }

@@ -22,17 +22,18 @@ inline void positions_part(const Part& part, const double* U, const CurrentAreas
   for (std::ptrdiff_t n = part.node_begin; n < part.node_end; ++n) store4(areas.x + row::x * n, Vec4{U[row::U * n + 7], U[row::U * n + 11], U[row::U * n + 15], 0.0});
 }
 
-/// c = sum over the tets at ab of (c - d) x ((c - a) + (d - b)) / 24; seen from b every term is bitwise the opposite. At a corner (x_b - x_a) x (x_c - x_a) / 6.
+/// c = sum over the tets at ab of (c - m) x (d - m) / 12, m = (a + b)/2; seen from b every term is bitwise the opposite, so without fma. At a corner
+/// (x_b - x_a) x (x_c - x_a) / 6.
 inline void dual_areas_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const CurrentAreas& areas) {
   const auto x = [&](std::int32_t n) { return load4(areas.x + row::x * static_cast<std::ptrdiff_t>(n)); };
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
-    const Vec4 a = x(edges.a[e]), b = x(edges.b[e]);
+    const Vec4 m = (x(edges.a[e]) + x(edges.b[e])) * 0.5;
     Vec4 sum{};
     for (std::int32_t i = areas.ring[e]; i < areas.ring[e + 1]; ++i) {
-      const Vec4 c = x(areas.cd[2 * i]), d = x(areas.cd[2 * i + 1]), p = c - d, q = (c - a) + (d - b);
-      sum = sum + fma(p, rotated(q), -(rotated(p) * q));
+      const Vec4 p = x(areas.cd[2 * i]) - m, q = x(areas.cd[2 * i + 1]) - m;
+      sum = sum + (p * rotated(q) - rotated(p) * q);
     }
-    store_area(areas.c, e, rotated(sum) * (1.0 / 24));
+    store_area(areas.c, e, rotated(sum) * (1.0 / 12));
   }
   for (int a = part.node_begin; a < part.node_end; ++a)
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g)
