@@ -43,17 +43,6 @@ NANSON_INLINE StabiliserOf<Real> stabiliser(const EdgeCoefficientsOf<Real>& s, R
   return {shear, volume, fma(-shear, cd_cc, normal)};
 }
 
-/// The same for one edge as a column: {D^p, D^J} = k d + along c.
-struct Stabiliser {
-  Vec4 k;
-  double along;
-};
-template <EntropyFix fix>
-NANSON_INLINE Stabiliser stabiliser(const EdgeCoefficients& s, Vec4 plain, Vec4 d, Vec4 c, double cc) {
-  const StabiliserOf<double> u = stabiliser<fix, double>(s, cc, dot3(c, d)[0], dot3(c, plain)[0], dot3(d, plain)[0], d[3] * plain[3]);
-  return {Vec4{u.shear, u.shear, u.shear, u.volume}, u.along};
-}
-
 /// Central traction and area of an edge: {P_ave C | H_ave C} from the {P|H} columns of both ends.
 NANSON_INLINE Vec8 average_traction_and_area(const Vec8 (&PH_a)[3], const double* PH_b, const double (&C)[3]) {
   Vec8 s = (PH_a[0] + load8(PH_b)) * broadcast8(0.5 * C[0]);
