@@ -70,6 +70,10 @@ NaiveLoop make_naive_loop(const Simulation& s);
 /// Stress and what is swept, of all nodes.
 void naive_material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H);
 
+/// Current areas of the positions U, and the rate of J by the motion of the dual cells; adjoint boundary flux with them.
+void current_geometry_pass(NaiveLoop& n, const std::vector<NaiveNode>& U);
+void current_boundary_flux(NaiveLoop& n);
+
 /// Stage `number` of a step of size dt from n.t: the first writes n.stage, the last n.now; then the stress of what was written.
 void naive_stage(NaiveLoop& n, int number, double dt);
 
