@@ -2,6 +2,7 @@
 #pragma once
 #include <omp.h>
 
+#include <algorithm>
 #include <array>
 #include <span>
 
@@ -9,9 +10,10 @@
 
 namespace nanson {
 
-/// Doubles of the buffers of one thread, for the largest part and any scheme.
+/// Doubles of the buffers of one thread, for the largest part and any scheme; at least a huge page: on small pages, scattered in memory, they push the part's rows out of L2.
 inline std::size_t part_scratch(const Order& o) {
-  return static_cast<std::size_t>((8 + 1) * (o.most_edges + 8) + 4 * o.most_corners + (4 + 12) * o.most_nodes);
+  const std::size_t used = static_cast<std::size_t>((8 + 1) * (o.most_edges + 8) + 4 * o.most_corners + (4 + 12) * o.most_nodes);
+  return std::max(used, CacheLineAllocator<double>::huge_page / sizeof(double));
 }
 
 inline Scratch scratch_of(Simulation& s, int thread) {
