@@ -1,4 +1,4 @@
-// Every combination named here is compiled by cmake/PartInstances.cmake, the common ones each in a translation unit of its own: beside others in one file they were slower.
+// Every combination named here is compiled by cmake/PartInstances.cmake, the common ones each in a translation unit of its own.
 #include "engine/registry.hpp"
 
 #include <stdexcept>
