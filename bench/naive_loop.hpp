@@ -60,7 +60,7 @@ struct NaiveLoop {
   std::vector<Vec3> lambda;                        // [1/m] jst
   std::vector<std::array<double, 4>> force;        // {force [N], J source [m^3/s]}
   double t = 0;                                    // [s]
-  bool has_lagged = false, takes_lagged = false;          // dG, q and dP (within P) of the last stage, for the first of the next step; taken in this stage
+  bool has_lagged = false, takes_lagged = false;   // dG, q and dP (within P) of the last stage, for the first of the next step; taken in this stage
   PartReport report;                               // of the present state
 };
 

@@ -44,6 +44,7 @@ struct Mixture {
   Aligned<double> rho;                     // [kg/m^3] a row: sum_r Omega_a,r rho_r / Omega_a, so that the mass is exact
 
   bool empty() const { return laws.empty(); }
+  Materials materials() const { return empty() ? Materials::one : Materials::several; }
 };
 
 /// Also the impedances of the edges of `order`, and `step_length` of nodes whose edges stabilise faster than their own waves run.

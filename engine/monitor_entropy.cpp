@@ -26,7 +26,7 @@ void add_part(const Simulation& s, const PartFunctions& functions, const Rows& r
 
 EntropyProduction entropy_production(Simulation& s) {
   const Rows rows = stage_rows(s.state, 0, 0);
-  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, s.mixture.empty() ? Materials::one : Materials::several, true,
+  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, s.mixture.materials(), true,
                                                       s.state.has_lagged_correction);  // a correction that the next stage takes stays as it is
   find_current_areas(s, rows.U_stage);
   if (s.scene->physics.reconstruction != Reconstruction::constant) {  // of the present state; the next stage computes them again

@@ -107,9 +107,8 @@ void allocate(Simulation& s, Dual dual, const NodeMaterials& materials) {
   s.boundary = make_boundary(scene, mesh, s.order);
   s.state = make_state(scene, mesh, std::move(dual), s.order, s.boundary);
   s.mixture = make_mixture(scene, materials, s.order, s.state.step_length);
-  const Materials how_many = s.mixture.empty() ? Materials::one : Materials::several;
-  s.functions = find_part_functions(scene.physics, scene.material, how_many, scene.monitor.energy);
-  s.lagged_functions = find_part_functions(scene.physics, scene.material, how_many, scene.monitor.energy, true);
+  s.functions = find_part_functions(scene.physics, scene.material, s.mixture.materials(), scene.monitor.energy);
+  s.lagged_functions = find_part_functions(scene.physics, scene.material, s.mixture.materials(), scene.monitor.energy, true);
   s.coefficients = coefficients_of(scene);
   s.coefficients.streams = s.order.nodes >= streaming_nodes;
   s.manufactured = make_manufactured(scene, mesh, s.order);

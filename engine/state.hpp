@@ -23,7 +23,7 @@ struct State {
   Aligned<double> step_length;             // [m] per node: dt = cfl min l/c
   Aligned<double> loads;                   // [N] 4 a loaded face
   std::vector<double> reactions, mean_reactions;  // reaction_row a constraint: of the last stage, mean of the last step's stages
-  bool has_lagged_correction = false;           // the flux correction of the last stage is there for the next step's first: dG in U[1], dP within PH[now]
+  bool has_lagged_correction = false;      // the flux correction of the last stage is there for the next step's first: dG in U[1], dP within PH[now]
   int now = 0;                             // which of W, PH belongs to the present state
 };
 

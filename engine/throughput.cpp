@@ -41,7 +41,7 @@ std::optional<Throughput> throughput(const Simulation& s, double update_bandwidt
   for (const SweepTime& sweep : s.clock.sweeps)
     if (sweep.sweep == "gradient" || sweep.sweep == "flux_update_stress") seconds += sweep.seconds;
   if (!law || s.step == 0 || !(seconds > 0)) return std::nullopt;
-  const Work step = step_work(p, Sizes(s.order), *law, s.scene->time.integrator == Integrator::tvd_rk2 ? 2 : 3);
+  const Work step = step_work(p, Sizes(s.order), *law, s.scene->time.integrator == Integrator::tvd_rk2 ? 2 : 3, s.scene->monitor.energy);
   const double nodes = s.order.nodes, steps = static_cast<double>(s.step), rate = steps * step.bytes / seconds;
   Throughput out{step.bytes / nodes, step.flops / nodes, 1e-9 * rate, 1e-9 * steps * step.flops / seconds, {}, {}};
   if (update_bandwidth > 0) out.update_GB_s = 1e-9 * update_bandwidth, out.bandwidth_share = rate / update_bandwidth;

@@ -101,8 +101,8 @@ inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool
 
 /// A step of the fused schedule with linear reconstruction: two sweeps a stage. With two stages the first takes the flux correction that the last of the step before has
 /// left in the rows of the stage's state (written once more for it), and on the edges (pressure) or in P (full).
-inline Work step_work(const PhysicsSpec& p, const Sizes& s, double law_flops, int stages) {
-  const auto stage = [&](const Carried& c) { return gradient_work(c, s) + edge_flux_work(c, s) + accumulate_update_work(c, s, false) + stress_work(c, s, law_flops, false); };
+inline Work step_work(const PhysicsSpec& p, const Sizes& s, double law_flops, int stages, bool audits = false) {
+  const auto stage = [&](const Carried& c) { return gradient_work(c, s) + edge_flux_work(c, s, audits) + accumulate_update_work(c, s, false) + stress_work(c, s, law_flops, false); };
   const Carried found(p);
   if (!found.corrected || stages != 2) return stages * stage(found);
   Carried lagged = found;

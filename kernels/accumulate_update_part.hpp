@@ -22,23 +22,16 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
     const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
     Vec4 g0{}, g1{}, g2{};
-    for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
+    const auto add = [&](auto sense, std::int32_t e) {
       const double* r = buffer + width * (e - part.edge_begin);
-      f = f + load4(r);
+      f = sense > 0 ? f + load4(r) : f - load4(r);
       if constexpr (corrected) {
         const Vec4 q = load4(r + 4);
-        g0 = fma(q, broadcast4(edges.C[0][e]), g0), g1 = fma(q, broadcast4(edges.C[1][e]), g1), g2 = fma(q, broadcast4(edges.C[2][e]), g2);
+        g0 = add_product(sense, q, broadcast4(edges.C[0][e]), g0), g1 = add_product(sense, q, broadcast4(edges.C[1][e]), g1), g2 = add_product(sense, q, broadcast4(edges.C[2][e]), g2);
       }
-    }
-    for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
-      const std::int32_t e = lists.in_edges[i];
-      const double* r = buffer + width * (e - part.edge_begin);
-      f = f - load4(r);
-      if constexpr (corrected) {
-        const Vec4 q = load4(r + 4);
-        g0 = fnma(q, broadcast4(edges.C[0][e]), g0), g1 = fnma(q, broadcast4(edges.C[1][e]), g1), g2 = fnma(q, broadcast4(edges.C[2][e]), g2);
-      }
-    }
+    };
+    for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) add(Outward(), e);
+    for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) add(Inward(), lists.in_edges[i]);
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) f = f + load4(scratch.corner + 4 * (g - part.corner_begin));
     store4(scratch.force + 4 * (n - part.node_begin), f);
     if constexpr (corrected) {

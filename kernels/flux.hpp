@@ -15,7 +15,6 @@ struct EdgeCoefficientsOf {
   Real normal;  // [kg/(m^4 s)]
   Real volume;  // [m^3/(Pa s)]
 };
-using EdgeCoefficients = EdgeCoefficientsOf<double>;
 
 template <UpwindMetric metric, class Real, class Z>
 NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, Z rho_cp, Z rho_cs) {

@@ -1,20 +1,9 @@
 // Green-Gauss gradients, node by node over both kinds of edges: at once dF/dt and the reconstruction gradient (paper, eq. 43a; method: one pass serves both).
 #pragma once
-#include <type_traits>
-
 #include "kernels/part.hpp"
 #include "kernels/reconstruction.hpp"
 
 namespace nanson {
-
-/// Sense of a half-edge: the area vector from its node is that of the edge, or the opposite.
-using Outward = std::integral_constant<int, 1>;
-using Inward = std::integral_constant<int, -1>;
-template <class Sense, class Real>
-NANSON_INLINE Real add_product(Sense, Real a, Real b, Real sum) {
-  if constexpr (Sense::value > 0) return fma(a, b, sum);
-  else return fnma(a, b, sum);
-}
 
 /// Visits the half-edges and corners of node n as edge(sense, edge, neighbour row) and corner(b, c, C).
 template <class Edge, class Corner>

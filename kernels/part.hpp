@@ -1,6 +1,7 @@
 // What a part function sees: a part's nodes, edges and boundary corners, the nodal rows, and the coefficients of a stage.
 #pragma once
 #include <cstdint>
+#include <type_traits>
 
 #include "kernels/materials/material.hpp"
 
@@ -40,6 +41,15 @@ NANSON_INLINE double edge_size(const EdgeArrays& edges, std::ptrdiff_t e) {
 NANSON_INLINE Vec8 edge_sizes(const EdgeArrays& edges, std::ptrdiff_t e) {
   const Vec8 C0 = load8_anywhere(edges.C[0] + e), C1 = load8_anywhere(edges.C[1] + e), C2 = load8_anywhere(edges.C[2] + e);
   return root(fma(C2, C2, fma(C1, C1, C0 * C0)));
+}
+
+/// Sense of a half-edge: the area vector from its node is that of the edge, or the opposite.
+using Outward = std::integral_constant<int, 1>;
+using Inward = std::integral_constant<int, -1>;
+template <class Sense, class Real>
+NANSON_INLINE Real add_product(Sense, Real a, Real b, Real sum) {
+  if constexpr (Sense::value > 0) return fma(a, b, sum);
+  else return fnma(a, b, sum);
 }
 
 /// Boundary corners (a; b, c): a third of a boundary face, in rows by owning node a.
@@ -89,8 +99,8 @@ struct Rows {
   double* W_new;
   double* PH_new;
   double* plastic;              // at the start of the step, overwritten where the stage commits
-  double* lagged_dG = nullptr;    // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
-  double* lagged_q = nullptr;     // [Pa] q of Sigma_J an edge, pressure correction only
+  double* lagged_dG = nullptr;  // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
+  double* lagged_q = nullptr;   // [Pa] q of Sigma_J an edge, pressure correction only
   double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
 };
 
@@ -117,7 +127,7 @@ struct Coefficients {
   double g[3] = {};                 // [m/s^2] body force
   double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
   bool streams = false;             // the mesh is larger than the caches: rows that only other sweeps read are written past them
-  bool takes_lagged = false;          // the flux correction is that of the step before's last stage: dG from Rows::lagged_dG and q from lagged_q, dP stands in PH already
+  bool takes_lagged = false;        // the flux correction is that of the step before's last stage: dG from Rows::lagged_dG and q from lagged_q, dP stands in PH already
   bool leaves_lagged = false;       // the next step's first stage takes the flux correction of this one
   bool commits = false;             // the stress of this stage is that of the new state: what flowed plastically is kept
   const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step

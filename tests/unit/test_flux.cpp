@@ -41,18 +41,18 @@ double normal_speed(const Edge& e) {
 }
 
 template <UpwindMetric metric>
-EdgeCoefficients coefficients(const Edge& e, double speed_p = cp, double speed_s = cs) {
+EdgeCoefficientsOf<double> coefficients(const Edge& e, double speed_p = cp, double speed_s = cs) {
   return edge_coefficients<metric>(e.c.squaredNorm(), e.C.norm(), rho * speed_p, rho * speed_s);
 }
 
-Vector3d momentum(const EdgeCoefficients& s, const Edge& e) { return s.shear * e.d + s.normal * e.c.dot(e.d) * e.c; }
+Vector3d momentum(const EdgeCoefficientsOf<double>& s, const Edge& e) { return s.shear * e.d + s.normal * e.c.dot(e.d) * e.c; }
 
 template <UpwindMetric metric>
 void expect_the_papers_matrices() {
   Random random(1);
   for (int k = 0; k < 500; ++k) {
     const Edge e = random_edge(random);
-    const EdgeCoefficients s = coefficients<metric>(e);
+    const EdgeCoefficientsOf<double> s = coefficients<metric>(e);
     const double speed = normal_speed<metric>(e);
     const Vector3d D = e.C.norm() / 2 * stabilisation(e.c, speed, cs) * (rho * e.d);
     EXPECT_LE((momentum(s, e) - D).norm(), 1e-13 * rho * speed * e.C.norm());
@@ -67,7 +67,7 @@ void expect_dissipation() {
   for (int k = 0; k < 500; ++k) {
     const Edge e = random_edge(random);
     const double speed_s = uniform(random, 0, cp);
-    const EdgeCoefficients s = coefficients<metric>(e, cp, speed_s);
+    const EdgeCoefficientsOf<double> s = coefficients<metric>(e, cp, speed_s);
     EXPECT_GE(e.d.dot(momentum(s, e)), 0.499 * rho * speed_s * e.C.norm() * e.d.squaredNorm());
     EXPECT_GT(e.d_Sigma * s.volume * e.d_Sigma, 0);
   }
@@ -86,7 +86,7 @@ TEST(Flux, MetricsAgreeBitwiseWhereTheAreaHasNotGrown) {
   int shrunk = 0;
   for (int k = 0; k < 500; ++k) {
     const Edge e = random_edge(random);
-    const EdgeCoefficients p = coefficients<UpwindMetric::paper>(e), d = coefficients<UpwindMetric::deformed>(e);
+    const EdgeCoefficientsOf<double> p = coefficients<UpwindMetric::paper>(e), d = coefficients<UpwindMetric::deformed>(e);
     const bool grown = e.c.norm() > e.C.norm();
     shrunk += !grown;
     EXPECT_EQ(p.shear, d.shear);

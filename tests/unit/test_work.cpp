@@ -32,6 +32,7 @@ TEST(Work, AStepIsItsStagesAndWhatIsLeftOutCostsNothing) {
   EXPECT_LT(step_work(constant, s, 100, 2).bytes, step_work(pFJ, s, 100, 2).bytes);
   EXPECT_GT(step_work(full, s, 100, 2).bytes, step_work(pFJ, s, 100, 2).bytes);
   EXPECT_LT(step_work(full, s, 100, 2).flops, 2.0 / 3 * step_work(full, s, 100, 3).flops);  // found once in two stages, in each of three
+  EXPECT_DOUBLE_EQ(step_work(pFJ, s, 100, 2, true).flops - step_work(pFJ, s, 100, 2).flops, 2 * 17 * s.edges);
   EXPECT_DOUBLE_EQ(step_work(pFJ, s, 150, 2).flops - step_work(pFJ, s, 100, 2).flops, 2 * 50 * 100);
 }
 
