@@ -22,7 +22,7 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
     const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
     Vec4 g0{}, g1{}, g2{};
-    const auto add = [&](auto sense, std::int32_t e) {
+    const auto add = [&](auto sense, std::ptrdiff_t e) {
       const double* r = buffer + width * (e - part.edge_begin);
       f = sense > 0 ? f + load4(r) : f - load4(r);
       if constexpr (corrected) {

@@ -1,5 +1,6 @@
 // What a part function sees: a part's nodes, edges and boundary corners, the nodal rows, and the coefficients of a stage.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -9,18 +10,18 @@ namespace nanson {
 
 /// Doubles in a row of each role. Rows are 32-byte multiples, arrays 64-byte aligned.
 namespace row {
-inline constexpr int U = 16;    // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
-inline constexpr int H = 12;    // {columns of H, 0}, pFHJ only
-inline constexpr int W = 4;     // {v, Sigma_J}: what is reconstructed and swept
-inline constexpr int PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
-inline constexpr int G = 12;    // per direction I: d{v, Sigma_J}/dX_I
-inline constexpr int dP = 12;   // {columns of dP, 0}: what the full flux correction adds to the nodal stress
-inline constexpr int GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
-inline constexpr int L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
-inline constexpr int x = 4;     // {x, 0}, current areas only
-inline constexpr int X = 4;     // {X, 1/Omega}
-inline constexpr int lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
-inline constexpr int plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
+inline constexpr std::ptrdiff_t U = 16;    // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
+inline constexpr std::ptrdiff_t H = 12;    // {columns of H, 0}, pFHJ only
+inline constexpr std::ptrdiff_t W = 4;     // {v, Sigma_J}: what is reconstructed and swept
+inline constexpr std::ptrdiff_t PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
+inline constexpr std::ptrdiff_t G = 12;    // per direction I: d{v, Sigma_J}/dX_I
+inline constexpr std::ptrdiff_t dP = 12;   // {columns of dP, 0}: what the full flux correction adds to the nodal stress
+inline constexpr std::ptrdiff_t GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
+inline constexpr std::ptrdiff_t L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
+inline constexpr std::ptrdiff_t x = 4;     // {x, 0}, current areas only
+inline constexpr std::ptrdiff_t X = 4;     // {X, 1/Omega}
+inline constexpr std::ptrdiff_t lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
+inline constexpr std::ptrdiff_t plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
 }  // namespace row
 
 /// Edges as structure of arrays, grouped by part, sorted by their first node a, which the part owns; an edge between two parts stands in both.
