@@ -89,7 +89,9 @@ struct Bed {
   double difference() {
     const double dt = 1e-3 / (options().cells * s.coefficients.material.cp);
     start(), gradient();
+    if (s.functions.corrects_stress) std::swap(s.state.PH[0], s.state.PH[1]);
     over_parts([&](const Part& p, Scratch scratch) { flux(p, scratch), update(p, scratch, dt), stress(p); });
+    start();
     NaiveLoop naive = make_naive_loop(s);
     const double of_power = scene.physics.stabilisation == Stabilisation::upwind ? std::abs(dissipation() / naive_dissipation(naive) - 1) : 0.0;
     naive_stage(naive, 0, dt);

@@ -43,7 +43,7 @@ bool is_baseline(const AnyChoice& c) {
 }
 
 /// dP_a = theta/(4 Omega_a) sum_b [(P_a - P_b + D . grad P_a) C_ab] (x) D (method, section 14).
-void correct_stress(NaiveLoop& n) {
+void find_correction(NaiveLoop& n) {
   std::fill(n.dP.begin(), n.dP.end(), Table<3, 3>{});
   const auto add = [&](int a, int b, const double (&C)[3]) {
     double D[3];
@@ -61,6 +61,10 @@ void correct_stress(NaiveLoop& n) {
   for (std::size_t a = 0; a < n.dP.size(); ++a)
     for (auto& column : n.dP[a])
       for (double& dP : column) dP *= theta / (4 * n.volume[a]);
+}
+void add_correction(NaiveLoop& n) {
+  for (std::size_t a = 0; a < n.dP.size(); ++a)
+    for (int m = 0; m < 9; ++m) n.stress[a].P[m / 3][m % 3] += n.dP[a][m / 3][m % 3];
 }
 
 /// Barth-Jespersen: the largest phi in [0, 1] for which W + phi G . D/2 stays between the values around at the midpoint of every edge (method, section 4).
@@ -104,7 +108,7 @@ void gradient_pass(NaiveLoop& n) {
   if (!n.lambda.empty()) pseudo_laplacian(n);
   else if (!n.L.empty()) limit(n);
   if (!n.GP.empty()) add_gradients<9>(n, [&](int a) { return &n.stress[a].P[0][0]; }, n.GP);
-  if (!n.dP.empty() && !n.takes_lagged) correct_stress(n);
+  if (!n.dP.empty() && !n.takes_lagged) find_correction(n);
 }
 
 /// Average of a tensor of both ends times C: traction from P, deformed area vector c from H (eq. 35, 38).
@@ -197,7 +201,6 @@ void flux_pass(NaiveLoop& n, Choice choice) {
         if (pressure) f[i] += q_lagged * c[i];
         if (n.takes_lagged) continue;
         for (int I = 0; I < 3; ++I) {
-          if (choice.correction() == FluxCorrection::full) f[i] += 0.5 * (n.dP[e.a][i][I] + n.dP[e.b][i][I]) * e.C[I];
           n.dG[e.a][i][I] += q[i] * e.C[I];
           n.dG[e.b][i][I] -= q[i] * e.C[I];
         }
@@ -212,7 +215,7 @@ void flux_pass(NaiveLoop& n, Choice choice) {
 
 /// Adjoint boundary flux (P_a - (6 P_a + P_b + P_c)/8) C_gamma (method, section 3), tractions, following pressures, body force.
 void boundary_pass(NaiveLoop& n, const std::vector<NaiveNode>& U, double t) {
-  const auto P = [&](int a, int i, int I) { return n.stress[a].P[i][I] + (n.dP.empty() || n.takes_lagged ? 0.0 : n.dP[a][i][I]); };
+  const auto P = [&](int a, int i, int I) { return n.stress[a].P[i][I]; };
   if (has_current_areas(n.scene->physics.description)) current_boundary_flux(n);
   else if (n.scene->physics.boundary_flux == BoundaryFlux::adjoint)
     for (const NaiveCorner& c : n.corners)
@@ -301,6 +304,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   auto &from = number == 0 ? n.now : n.stage, &to = last ? n.now : n.stage;
   auto &H_from = number == 0 ? n.H_now : n.H_stage, &H_to = last ? n.H_now : n.H_stage;
   gradient_pass(n);
+  if (!n.takes_lagged) add_correction(n);
   const AnyChoice choice{n.scene->physics};
   if (choice.current()) current_geometry_pass(n, from);
   if (!is_baseline(choice)) flux_pass(n, choice);
@@ -311,8 +315,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   update_pass(n, from, to, H_from, H_to, w);
   naive_material(n, to, H_to);
   n.has_lagged = second && last && !n.dG.empty();
-  for (std::size_t a = 0; n.has_lagged && a < n.dP.size(); ++a)
-    for (int m = 0; m < 9; ++m) n.stress[a].P[m / 3][m % 3] += n.dP[a][m / 3][m % 3];
+  if (n.has_lagged) add_correction(n);
 }
 
 void naive_advance(NaiveLoop& n, double dt) {

@@ -48,6 +48,7 @@ constexpr bool is_built(Reconstruction r, EdgeCorrection c, PressureJump jump, E
 
 void find_gradient(PartFunctions& f, const PhysicsSpec& p, EdgeCorrection correction) {
   const bool tensor = p.pressure_jump == PressureJump::tensor && p.reconstruction == Reconstruction::linear, full = correction == EdgeCorrection::finds_full;
+  f.corrects_stress = full;
   switch (node_weights(p)) {
     case NodeWeights::none:
       f.gradient = tensor ? (full ? gradient_part<true, true, NodeWeights::none> : gradient_part<true, false, NodeWeights::none>)

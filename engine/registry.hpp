@@ -11,6 +11,7 @@ struct PartFunctions {
   void (*accumulate_update)(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&) = nullptr;
   PartReport (*stress)(const Part&, const Rows&, const Coefficients&, const double*) = nullptr;
   double (*strain_energy)(const Part&, const Rows&, const Coefficients&) = nullptr;
+  bool corrects_stress = false;  // the gradient sweep writes the corrected stress into Rows::PH_new: the edges read it there (full flux correction)
 };
 
 /// The combinations of physics that are compiled, in a sentence.

@@ -72,6 +72,10 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   }
   if (has_current_areas(s.scene->physics.description)) s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
   if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
+  if (functions.corrects_stress) {
+    std::swap(u.PH[0], u.PH[1]);
+    rows.PH = u.PH[u.now].data(), rows.PH_new = u.PH[1 - u.now].data();
+  }
   s.clock.time("flux_update_stress", [&] {
     for_parts(s, [&](int p, Scratch scratch) {
       const Part& part = s.order.parts[p];

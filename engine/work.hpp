@@ -39,23 +39,26 @@ inline constexpr double edge = 28, edge_a = 4, in_edge = 8;          // b, C; a;
 inline constexpr double corner = 32, corner_load = 4;                // b, c, C; load
 }  // namespace bytes
 
-/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, dP, L.
+/// How often a row counts that only other sweeps read.
+inline double written(const Sizes& s) { return s.nodes >= streaming_nodes ? 1 : 2; }
+
+/// gradient_part: reads W, X, PH with a gradient of P, the edges; writes G, GP, dP and the corrected PH, L.
 inline Work gradient_work(const Carried& c, const Sizes& s) {
   const bool of_P = c.full || (c.tensor && c.linear), stores_GP = c.tensor && c.linear;
   const double half_edges = s.edges + s.in_edges;
   Work out;
-  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::lists + 2 * bytes::G + (of_P ? bytes::PH : 0) + (stores_GP ? 2 * bytes::GP : 0) + (c.full ? 2 * bytes::dP : 0)) +
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::lists + 2 * bytes::G + (of_P ? bytes::PH : 0) + (stores_GP ? 2 * bytes::GP : 0) + (c.full ? 2 * bytes::dP + written(s) * bytes::PH : 0)) +
               s.edges * bytes::edge + s.in_edges * bytes::in_edge + s.corners * bytes::corner;
   const double numbers = c.w + (of_P ? 9 : 0);
   out.flops = half_edges * numbers * (1 + 6) + s.corners * numbers * (4 + 6) + s.nodes * 3 * numbers;  // difference, 3 fma; mean of two; scaling
-  if (c.full) out.flops += half_edges * (3 + 15 + 18 + 6 + 36) + s.nodes * (162 + 27);                   // D; (P_b - P_a) C; (x) D; D (x) D; times C; times grad P
+  if (c.full) out.flops += half_edges * (3 + 15 + 18 + 6 + 36) + s.nodes * (162 + 27 + 9);               // D; (P_b - P_a) C; (x) D; D (x) D; times C; times grad P; P + dP
   if (c.limited) out.flops += half_edges * (3 + c.w * (1 + 5 + 1 + 4)) + s.nodes * c.w * 8;             // D; jump, slope, four extremes; quotients
   if (c.jst) out.flops += half_edges * (3 + 6 + 3 * c.w);                                                // D; weight; sum
   if (c.limited || c.jst) out.bytes += s.nodes * (2 * bytes::L + (c.jst ? bytes::lambda : 0));
   return out;
 }
 
-/// edge_flux_part: reads W, X, PH, G, GP, dP, L and the edges; its buffer stays in L2. edge_flux_jst_part: PH, L and the edges.
+/// edge_flux_part: reads W, X, PH, G, GP, L and the edges; its buffer stays in L2. edge_flux_jst_part: PH, L and the edges.
 inline Work edge_flux_work(const Carried& c, const Sizes& s, bool audits = false) {
   const double n = c.w;
   Work out;
@@ -64,7 +67,7 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s, bool audits = false
     out.flops = s.edges * (3 * (3 + 1 + 6) + 4 * n) + s.corners * 9 * 5;
     return out;
   }
-  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.full ? bytes::dP : 0) + (c.limited ? bytes::L : 0)) +
+  out.bytes = s.nodes * (bytes::W + bytes::X + bytes::PH + 8 + (c.linear ? bytes::G + (c.tensor ? bytes::GP : 0) : 0) + (c.limited ? bytes::L : 0)) +
               s.edges * (bytes::edge + bytes::edge_a) + s.corners * (bytes::corner + bytes::corner_load);
   double flops = 3 * (6 + 1 + 12) + n;                                  // averages of P and H times C; jump
   if (c.linear) flops += 3 + 3 * n + 6 * n + 2 * n;                     // D; G_a + G_b; times D; subtracted
@@ -75,7 +78,6 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s, bool audits = false
   if (c.J) flops += 3 + 2;                                              // D^J
   if (audits) flops += 5 + 5 + 4 + 1 + (c.J ? 2 : 0);                   // (d.plain); (c.plain); power
   if (c.pressure) flops += 1;
-  if (c.full) flops += 9 + 3 + 18;                                      // average of dP times C, and to the traction
   if (c.tensor) flops += 9 * (1 + 2) + 5 + 1 + (c.linear ? 9 * 3 * 3 : 0);  // jump of P times C, along c
   out.flops = s.edges * flops + s.corners * 9 * 5;
   return out;
@@ -95,8 +97,7 @@ inline Work accumulate_update_work(const Carried& c, const Sizes& s, bool alone)
 
 /// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by engine/counted.hpp.
 inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {
-  const double written = s.nodes >= streaming_nodes ? 1 : 2;
-  return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + written * (bytes::W + bytes::PH)), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
+  return {s.nodes * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + written(s) * (bytes::W + bytes::PH)), s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
 }
 
 /// A step of the fused schedule with linear reconstruction: two sweeps a stage. With two stages the first takes the flux correction that the last of the step before has
@@ -107,7 +108,7 @@ inline Work step_work(const PhysicsSpec& p, const Sizes& s, double law_flops, in
   if (!found.corrected || stages != 2) return stages * stage(found);
   Carried lagged = found;
   lagged.full = lagged.corrected = false;
-  return stage(lagged) + stage(found) + Work{s.nodes * bytes::U + (found.pressure ? 3 * 8 * s.edges : 0), s.nodes * (9 + (found.full ? 9 : 0))};
+  return stage(lagged) + stage(found) + Work{s.nodes * (bytes::U + (found.full ? bytes::dP : 0)) + (found.pressure ? 3 * 8 * s.edges : 0), s.nodes * (9 + (found.full ? 9 : 0))};
 }
 
 }  // namespace nanson

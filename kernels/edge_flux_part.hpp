@@ -44,7 +44,6 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
     __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
     if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
-    if constexpr (correction == EdgeCorrection::finds_full) __builtin_prefetch(rows.dP + row::dP * next), __builtin_prefetch(rows.dP + row::dP * next + 8);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
     const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
@@ -53,7 +52,6 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
     if constexpr (areas == Areas::current) tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
-    if constexpr (correction == EdgeCorrection::finds_full) tc = concat(low(tc) + average_traction(rows.dP + row::dP * a, rows.dP + row::dP * b, C), high(tc));
     const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
     store8(block.tc + 8 * at, tc);
@@ -139,14 +137,9 @@ NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const
   return sum(power);
 }
 
-/// Corners: adjoint boundary flux (2 P_a - P_b - P_c)/8 C_gamma (method, section 3) and the load on the face; `full`: with the correction of the stress.
-template <bool full = false>
+/// Corners: adjoint boundary flux (2 P_a - P_b - P_c)/8 C_gamma (method, section 3) and the load on the face.
 NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
-  const auto stress = [&](std::ptrdiff_t n, int I) {
-    const Vec4 P = load4(rows.PH + row::PH * n + 8 * I);
-    if constexpr (full) return P + load4(rows.dP + row::dP * n + 4 * I);
-    else return P;
-  };
+  const auto stress = [&](std::ptrdiff_t n, int I) { return load4(rows.PH + row::PH * n + 8 * I); };
   if (part.corner_begin == part.corner_end) return;
   for (int a = part.node_begin; a < part.node_end; ++a)
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {
@@ -164,7 +157,7 @@ template <Reconstruction reconstruction, EdgeCorrection correction, bool evolves
 double edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                       const Scratch& scratch) {
   const double power = edge_fluxes<reconstruction, correction, audits, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
-  corner_forces<correction == EdgeCorrection::finds_full>(part, corners, lists, rows, k, scratch.corner);
+  corner_forces(part, corners, lists, rows, k, scratch.corner);
   return power;
 }
 

@@ -49,11 +49,4 @@ NANSON_INLINE Vec8 average_traction_and_area(const Vec8 (&PH_a)[3], const double
   return fma(PH_a[2] + load8(PH_b + 16), broadcast8(0.5 * C[2]), s);
 }
 
-/// The same traction from the nodal stress Q of the full flux correction.
-NANSON_INLINE Vec4 average_traction(const double* Qa, const double* Qb, const double (&C)[3]) {
-  Vec4 t = (load4(Qa) + load4(Qb)) * broadcast4(0.5 * C[0]);
-  t = fma(load4(Qa + 4) + load4(Qb + 4), broadcast4(0.5 * C[1]), t);
-  return fma(load4(Qa + 8) + load4(Qb + 8), broadcast4(0.5 * C[2]), t);
-}
-
 }  // namespace nanson

@@ -25,8 +25,8 @@ NANSON_INLINE void prefetch_edges(int n, const EdgeArrays& edges, const NodeList
   __builtin_prefetch(edges.b + e + 200), __builtin_prefetch(lists.in_edges + lists.in[n] + ahead);
 }
 /// Asks for the row at the other end of an out-edge that comes `ahead` edges later; those of in-edges are the part's own.
-template <int width, int ahead, int lines = 1, class Sense>
-NANSON_INLINE void prefetch_row(Sense, const double* rows, const EdgeArrays& edges, std::int32_t e) {
+template <std::ptrdiff_t width, int ahead, int lines = 1, class Sense>
+NANSON_INLINE void prefetch_row(Sense, const double* rows, const EdgeArrays& edges, std::ptrdiff_t e) {
   if constexpr (Sense::value > 0)
     for (int line = 0; line < lines; ++line) __builtin_prefetch(rows + width * edges.b[e + ahead] + 8 * line);
 }
@@ -41,8 +41,9 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
       n, edges, corners, lists,
       [&](auto sense, std::int32_t e, int b) {
         prefetch_row<row::W, 200>(sense, rows.W, edges, e);
-        const Vec4 d = load4(rows.W + row::W * b) - Wa;
-        g0 = add_product(sense, d, broadcast4(edges.C[0][e]), g0), g1 = add_product(sense, d, broadcast4(edges.C[1][e]), g1), g2 = add_product(sense, d, broadcast4(edges.C[2][e]), g2);
+        const Vec4 d = Wa - load4(rows.W + row::W * b);  // this way round the load is part of the subtraction
+        const auto back = opposite(sense);
+        g0 = add_product(back, d, broadcast4(edges.C[0][e]), g0), g1 = add_product(back, d, broadcast4(edges.C[1][e]), g1), g2 = add_product(back, d, broadcast4(edges.C[2][e]), g2);
       },
       [&](int b, int c, double C0, double C1, double C2) {
         const Vec4 d = ((load4(rows.W + row::W * b) - Wa) + (load4(rows.W + row::W * c) - Wa)) * 0.25;
@@ -80,8 +81,8 @@ NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArr
 
 /// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP, and what the full flux correction adds to the nodal stress,
 /// dP_a = theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14). One visit of the neighbours: sum_b C_I D_K D_L is taken
-/// beside the differences and meets the gradient of P when that is known.
-NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, double theta,
+/// beside the differences and meets the gradient of P when that is known. {P + dP | H} goes into the rows that the next stress overwrites: the edges read it there.
+NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
                                     Vec4 (&g)[3][3]) {
   prefetch_edges(n, edges, lists);
   const double* Pa = rows.PH + row::PH * n;
@@ -98,8 +99,8 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
         prefetch_row<row::W, 200>(sense, rows.W, edges, e), prefetch_row<row::X, 60>(sense, rows.X, edges, e), prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
         const double* Pb = rows.PH + row::PH * b;
         const Vec8 C[3] = {broadcast8(edges.C[0][e]), broadcast8(edges.C[1][e]), broadcast8(edges.C[2][e])};
-        const Vec4 D = load4(rows.X + row::X * b) - Xa, d0 = load4(Pb) - P[0], d1 = load4(Pb + 8) - P[1], d2 = load4(Pb + 16) - P[2];
-        add(sense, d0, d1, d2, load4(rows.W + row::W * b) - Wa, C);
+        const Vec4 D = Xa - load4(rows.X + row::X * b), d0 = P[0] - load4(Pb), d1 = P[1] - load4(Pb + 8), d2 = P[2] - load4(Pb + 16);
+        add(opposite(sense), d0, d1, d2, Wa - load4(rows.W + row::W * b), C);
         const Vec4 y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
         q[0] = add_product(sense, y, spread<0>(D), q[0]), q[1] = add_product(sense, y, spread<1>(D), q[1]), q[2] = add_product(sense, y, spread<2>(D), q[2]);
         const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
@@ -123,7 +124,11 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
     Vec4 sum = -q[L];
     for (int K = 0; K < 3; ++K)
       for (int I = 0; I < 3; ++I) sum = fma(g[K][I], broadcast4(CDD[I][lane[K][L]]), sum);
-    store4(rows.dP + row::dP * n + 4 * L, sum * broadcast4(0.25 * theta * inverse));
+    const Vec4 dP = sum * broadcast4(0.25 * k.theta * inverse);
+    store4(rows.dP + row::dP * n + 4 * L, dP);
+    const Vec8 corrected = concat(P[L] + dP, load4(Pa + 8 * L + 4));
+    double* PH = rows.PH_new + row::PH * n + 8 * L;
+    k.streams ? stream8(PH, corrected) : store8(PH, corrected);
   }
 }
 
@@ -163,7 +168,7 @@ void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays
   for (int n = part.node_begin; n < part.node_end; ++n) {
     Vec4 gradient_P[3][3];
     if constexpr (full_correction)
-      corrected_stress(n, edges, corners, lists, rows, k.theta, gradient_P);
+      corrected_stress(n, edges, corners, lists, rows, k, gradient_P);
     else
       gradient_of_W(n, edges, corners, lists, rows);
     if constexpr (tensor_jump && !full_correction) gradient_of_P(n, edges, corners, lists, rows, gradient_P);
@@ -172,6 +177,8 @@ void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays
     if constexpr (weights == NodeWeights::limiter) limiter(n, edges, corners, lists, rows);
     if constexpr (weights == NodeWeights::laplacian) pseudo_laplacian(n, edges, corners, lists, rows);
   }
+  if constexpr (full_correction)
+    if (k.streams) finish_streams();
 }
 
 }  // namespace nanson

@@ -47,6 +47,8 @@ NANSON_INLINE Vec8 edge_sizes(const EdgeArrays& edges, std::ptrdiff_t e) {
 /// Sense of a half-edge: the area vector from its node is that of the edge, or the opposite.
 using Outward = std::integral_constant<int, 1>;
 using Inward = std::integral_constant<int, -1>;
+template <class Sense>
+constexpr auto opposite(Sense) { return std::integral_constant<int, -Sense::value>(); }
 template <class Sense, class Real>
 NANSON_INLINE Real add_product(Sense, Real a, Real b, Real sum) {
   if constexpr (Sense::value > 0) return fma(a, b, sum);

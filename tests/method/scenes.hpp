@@ -192,12 +192,13 @@ inline Rates rates(Simulation& s) {
   Rows rows = stage_rows(u, 0, 0);
   find_current_areas(s, rows.U_stage);
   rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
-  rows.G = out.G.data(), rows.U_new = out.U.data(), rows.H_new = H.data(), rows.W_new = nullptr, rows.PH_new = nullptr;
+  rows.G = out.G.data(), rows.U_new = out.U.data(), rows.H_new = H.data(), rows.W_new = nullptr;
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
   const Scratch scratch = scratch_of(s, 0);
   for (const Part& part : s.order.parts) s.functions.gradient(part, edges, corners, lists, rows, k);
+  if (s.functions.corrects_stress) rows.PH = rows.PH_new;
   for (const Part& part : s.order.parts) {
     s.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);
     s.functions.accumulate_update(part, edges, lists, rows, k, s.boundary.constraints.data(), u.reactions.data(), scratch);

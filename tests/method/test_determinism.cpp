@@ -66,8 +66,9 @@ TEST(Determinism, FluxOfACutEdgeIsBitwiseOppositeInItsTwoParts) {
     }
     Aligned<double> G(row::G * s.order.rows, 0.0);
     Rows rows{};
-    rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = G.data(), rows.dP = u.dP.data(), rows.lagged_q = u.q.data(), rows.GP = u.GP.data();
+    rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = G.data(), rows.dP = u.dP.data(), rows.PH_new = u.PH[1 - u.now].data(), rows.lagged_q = u.q.data(), rows.GP = u.GP.data();
     for (const Part& part : s.order.parts) s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+    if (s.functions.corrects_stress) rows.PH = rows.PH_new;
     const int width = physics.flux_correction == FluxCorrection::none ? 4 : 8;
     std::map<std::pair<int, int>, std::array<double, 4>> flux;
     int pairs = 0, unequal = 0;

@@ -63,7 +63,7 @@ const std::vector<Combination>& combinations() {
 /// Rows 0 to 7 are part 0, 8 to 15 part 1; the edge joins rows 0 and 8. Random rows.
 struct TwoParts {
   static constexpr int rows = 16, a = 0, b = 8;
-  Aligned<double> X, W, PH, G, dP, GP, L;
+  Aligned<double> X, W, PH, G, GP, L;
   std::int32_t first[64] = {a, b}, second[64] = {b, a}, none[rows + 1] = {}, out[rows + 1] = {};
   double C[3][64] = {}, size = 0, q[64] = {};
   Part part[2] = {{0, 8, 0, 1, 0, 0, 0, 0}, {8, 16, 1, 2, 0, 0, 0, 0}};
@@ -75,11 +75,10 @@ struct TwoParts {
       x.resize(static_cast<std::size_t>(width * rows));
       for (double& value : x) value = uniform(random, -1, 1);
     };
-    fill(X, row::X), fill(W, row::W), fill(PH, row::PH), fill(G, row::G), fill(dP, row::dP), fill(GP, row::GP), fill(L, row::L);
+    fill(X, row::X), fill(W, row::W), fill(PH, row::PH), fill(G, row::G), fill(GP, row::GP), fill(L, row::L);
     for (double& phi : L) phi = std::abs(phi);  // a limiter
     for (int n = 0; n < rows; ++n) {
       for (int m = 0; m < 6; ++m) PH[row::PH * n + 4 * m + 3] = 0;  // the lanes that are zero in a run
-      for (int m = 0; m < 3; ++m) dP[row::dP * n + 4 * m + 3] = 0;
       for (int m = 0; m < 9; ++m) GP[row::GP * n + 4 * m + 3] = 0;
       X[row::X * n + 3] = 2;
       out[n] = n > 8 ? 2 : n > 0 ? 1 : 0;
@@ -91,7 +90,7 @@ struct TwoParts {
   }
   Rows nodal() {
     Rows r{};
-    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.dP = dP.data(), r.GP = GP.data(), r.L = L.data(), r.lagged_q = q;
+    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.GP = GP.data(), r.L = L.data(), r.lagged_q = q;
     return r;
   }
   EdgeArrays edges() const { return {first, second, {C[0], C[1], C[2]}}; }
@@ -114,16 +113,15 @@ struct TwoParts {
     EXPECT_EQ(run(false), 0.0);
     return run(true);
   }
-  /// P_ave C with the nodal stress of the correction.
-  std::array<double, 3> central(const Combination& c) const {
-    const bool full = c.physics.flux_correction == FluxCorrection::full;
-    const auto P = [&](int n, int i, int I) { return PH[row::PH * n + 8 * I + i] + (full ? dP[row::dP * n + 4 * I + i] : 0.0); };
+  /// P_ave C.
+  std::array<double, 3> central() const {
+    const auto P = [&](int n, int i, int I) { return PH[row::PH * n + 8 * I + i]; };
     std::array<double, 3> t{};
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) t[i] += 0.5 * (P(a, i, I) + P(b, i, I)) * C[I][0];
     return t;
   }
-  /// v, Sigma_J and P linear in X, with their gradients in G and GP; dP = 0. No limiter; the pseudo-Laplacian of a linear field is zero.
+  /// v, Sigma_J and P linear in X, with their gradients in G and GP. No limiter; the pseudo-Laplacian of a linear field is zero.
   void make_linear(Random& random, bool upwind) {
     for (double& l : L) l = upwind;
     double slope[3][4], P0[9], slope_P[3][9];
@@ -140,7 +138,7 @@ struct TwoParts {
       }
       for (int m = 0; m < 9; ++m) {
         const double P = P0[m] + slope_P[0][m] * x[0] + slope_P[1][m] * x[1] + slope_P[2][m] * x[2];
-        PH[row::PH * n + 8 * (m / 3) + m % 3] = P, dP[row::dP * n + 4 * (m / 3) + m % 3] = 0;
+        PH[row::PH * n + 8 * (m / 3) + m % 3] = P;
         for (int K = 0; K < 3; ++K) GP[row::GP * n + 4 * (3 * K + m / 3) + m % 3] = slope_P[K][m];
       }
     }
@@ -192,7 +190,7 @@ TEST(EdgeFluxPart, LinearFieldsGiveTheCentralFluxAlone) {
       TwoParts two(random);
       two.make_linear(random, c.upwind());
       two.run(c);
-      const auto t = two.central(c);
+      const auto t = two.central();
       for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i], t[i], 1e-13) << c.name();
       EXPECT_NEAR(two.flux[0][3], 0, 1e-13) << c.name();
     }
@@ -206,7 +204,7 @@ TEST(EdgeFluxPart, ConstantReconstructionDampsLinearFields) {
     TwoParts two(random);
     two.make_linear(random, c.upwind());
     two.run(c);
-    const auto t = two.central(c);
+    const auto t = two.central();
     EXPECT_GT(std::abs(two.flux[0][0] - t[0]) + std::abs(two.flux[0][1] - t[1]) + std::abs(two.flux[0][2] - t[2]), 1e-2) << c.name();
   }
 }
@@ -264,7 +262,7 @@ TEST(EdgeFluxPart, DissipationIsThePowerOfTheStabilisationCountedOnce) {
     for (int k = 0; k < 100; ++k) {
       TwoParts two(random);
       two.run(plain);
-      const auto t = two.central(plain);
+      const auto t = two.central();
       double expected = (two.W[row::W * two.b + 3] - two.W[3]) * two.flux[0][3];
       for (int i = 0; i < 3; ++i) expected += (two.W[row::W * two.b + i] - two.W[i]) * (two.flux[0][i] - t[i]);
       double power = 0;
@@ -295,7 +293,7 @@ TEST(EdgeFluxPart, JamesonSchmidtTurkelDampsTheDifferenceOfThePseudoLaplacians) 
   Random random(8);
   TwoParts two(random);
   two.run({physics});
-  const auto t = two.central({physics});
+  const auto t = two.central();
   const double* Lb = &two.L[row::L * two.b];
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i], t[i] - two.k.rho_cp / 256 * two.size * (Lb[i] - two.L[i]), 1e-15);
   EXPECT_NEAR(two.flux[0][3], -two.k.material.cp / 8192 * two.size * (Lb[3] - two.L[3]), 1e-17);

@@ -18,7 +18,7 @@ struct Gradients : ::testing::TestWithParam<Split> {
   Mesh mesh = box({13, 12, 10}, GetParam(), 0.2);  // two parts
   Dual dual = make_dual(mesh);
   Order order = make_order(dual, static_cast<int>(mesh.X.size()));
-  Aligned<double> X = zeros(row::X), W = zeros(row::W), PH = zeros(row::PH), G = zeros(row::G), dP = zeros(row::dP), GP = zeros(row::GP);
+  Aligned<double> X = zeros(row::X), W = zeros(row::W), PH = zeros(row::PH), G = zeros(row::G), dP = zeros(row::dP), GP = zeros(row::GP), PH_new = zeros(row::PH);
   Aligned<double> L = zeros(row::L), lambda;
   Random random{1};
 
@@ -39,7 +39,7 @@ struct Gradients : ::testing::TestWithParam<Split> {
   void run(const PhysicsSpec& physics) {
     const PartFunctions f = find_part_functions(physics, MaterialSpec{});
     Rows r{};
-    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.dP = dP.data(), r.GP = GP.data(), r.L = L.data(), r.lambda = lambda.data();
+    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.dP = dP.data(), r.GP = GP.data(), r.L = L.data(), r.lambda = lambda.data(), r.PH_new = PH_new.data();
     for (const Part& part : order.parts) f.gradient(part, order.edges(), order.corners(), order.lists(), r, Coefficients{});
   }
 };
@@ -114,6 +114,8 @@ TEST_P(Gradients, OfALinearStressAreExactAndItHasNoCorrection) {
 TEST_P(Gradients, CorrectionOfTheStressIsItsFormula) {
   for (int r = 0; r < order.rows; ++r)
     for (int m = 0; m < 9 && order.node_of[r] >= 0; ++m) PH[row::PH * r + 8 * (m / 3) + m % 3] = uniform(random, -1, 1);
+  for (int r = 0; r < order.rows; ++r)
+    for (int m = 0; m < 9; ++m) PH[row::PH * r + 8 * (m / 3) + 4 + m % 3] = uniform(random, -1, 1);  // H
   run(PressureJump::tensor, FluxCorrection::full);
   const auto P = [&](int n, int i, int I) { return PH[row::PH * order.row_of[n] + 8 * I + i]; };
   std::vector<Eigen::Matrix3d> expected(mesh.X.size(), Eigen::Matrix3d::Zero());
@@ -131,7 +133,12 @@ TEST_P(Gradients, CorrectionOfTheStressIsItsFormula) {
   };
   for (const DualEdge& e : dual.edges) add(e.a, e.b, 1, e.C), add(e.b, e.a, -1, e.C);
   for (int n = 0; n < order.nodes; ++n)
-    for (int m = 0; m < 9; ++m) EXPECT_NEAR(dP[row::dP * order.row_of[n] + 4 * (m / 3) + m % 3], expected[n](m % 3, m / 3), 1e-13) << "node " << n;
+    for (int m = 0; m < 9; ++m) {
+      const std::ptrdiff_t r = order.row_of[n], P_row = row::PH * r + 8 * (m / 3) + m % 3;
+      EXPECT_NEAR(dP[row::dP * r + 4 * (m / 3) + m % 3], expected[n](m % 3, m / 3), 1e-13) << "node " << n;
+      EXPECT_EQ(PH_new[P_row], PH[P_row] + dP[row::dP * r + 4 * (m / 3) + m % 3]) << "what the edges read";
+      EXPECT_EQ(PH_new[P_row + 4], PH[P_row + 4]);
+    }
 }
 
 TEST_P(Gradients, LimitedReconstructionsStayBetweenTheNeighboursAtEveryMidpointAndTouchThem) {
