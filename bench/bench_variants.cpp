@@ -60,7 +60,7 @@ Colours colour(const Order& o) {
 /// Every edge of every node as an out-edge, those inside a part twice: no node has in-edges.
 Order both_ways(const Order& o) {
   Order out = o;
-  out.a.clear(), out.b.clear(), out.in_edges.clear();
+  out.a.clear(), out.b.clear(), out.in_edges.clear(), out.in_nodes.clear();
   for (auto& C : out.C) C.clear();
   out.most_edges = 0;
   for (Part& part : out.parts) {
@@ -72,7 +72,7 @@ Order both_ways(const Order& o) {
         for (int k = 0; k < 3; ++k) out.C[k].push_back(sign * o.C[k][e]);
       };
       for (int e = o.out[n]; e < o.out[n + 1]; ++e) add(o.b[e], e, 1);
-      for (int i = o.in[n]; i < o.in[n + 1]; ++i) add(o.a[o.in_edges[i]], o.in_edges[i], -1);
+      for (int i = o.in[n]; i < o.in[n + 1]; ++i) add(o.in_nodes[i], o.in_edges[i], -1);
     }
     part.edge_end = static_cast<int>(out.a.size());
     out.most_edges = std::max(out.most_edges, part.edge_end - part.edge_begin);

@@ -167,10 +167,13 @@ void place_edges(Order& o, const Dual& dual) {
     }
   }
   std::partial_sum(o.in.begin(), o.in.end(), o.in.begin());
-  o.in_edges.assign(static_cast<std::size_t>(o.in.back()) + 1, 0);
+  o.in_edges.assign(static_cast<std::size_t>(o.in.back()) + 1, 0), o.in_nodes = o.in_edges;
   std::vector<int> slot(o.in.begin(), o.in.end() - 1);
   for (int i = 0; i < static_cast<int>(count); ++i)
-    if (part_of[o.a[i]] == part_of[o.b[i]]) o.in_edges[slot[o.b[i]]++] = i;
+    if (part_of[o.a[i]] == part_of[o.b[i]]) {
+      const int at = slot[o.b[i]]++;
+      o.in_edges[at] = i, o.in_nodes[at] = o.a[i];
+    }
 }
 
 void place_corners(Order& o, const Dual& dual) {

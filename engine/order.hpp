@@ -31,7 +31,7 @@ struct Order {
   Aligned<std::int32_t> a, b;               // edges
   Aligned<double> C[3];
   Aligned<double> rho_cp, rho_cs;           // several materials only, filled in by engine/mixture
-  Aligned<std::int32_t> out, in, in_edges, corner;   // node lists
+  Aligned<std::int32_t> out, in, in_edges, in_nodes, corner;   // node lists
   Aligned<std::int32_t> corner_b, corner_c, corner_load;
   Aligned<double> corner_C[3];
   std::vector<int> corner_face;             // corner -> index into Mesh::faces
@@ -39,7 +39,7 @@ struct Order {
 
   EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, {}, rho_cp.data(), rho_cs.data()}; }
   CornerArrays corners() const { return {corner_b.data(), corner_c.data(), {corner_C[0].data(), corner_C[1].data(), corner_C[2].data()}, corner_load.data()}; }
-  NodeLists lists() const { return {out.data(), in.data(), in_edges.data(), corner.data()}; }
+  NodeLists lists() const { return {out.data(), in.data(), in_edges.data(), in_nodes.data(), corner.data()}; }
 };
 
 /// `try_metis` = false takes the road of a METIS that fails. With a `group` a node, each part's rows are sorted by group, RCM inside, and every group is padded.

@@ -100,7 +100,7 @@ double bytes_per_node(const State& s, const Order& o) {
   std::size_t doubles = s.X.size() + s.G.size() + s.dP.size() + s.q.size() + s.GP.size() + s.L.size() + s.lambda.size() + s.plastic.size() + s.step_length.size() + s.loads.size() + 2 * s.reactions.size();
   for (int k = 0; k < 2; ++k) doubles += s.U[k].size() + s.H[k].size() + s.W[k].size() + s.PH[k].size();
   for (int k = 0; k < 3; ++k) doubles += o.C[k].size() + o.corner_C[k].size();
-  const std::size_t ints = o.a.size() + o.b.size() + o.out.size() + o.in.size() + o.in_edges.size() + o.corner.size() + o.corner_b.size() + o.corner_c.size() +
+  const std::size_t ints = o.a.size() + o.b.size() + o.out.size() + o.in.size() + o.in_edges.size() + o.in_nodes.size() + o.corner.size() + o.corner_b.size() + o.corner_c.size() +
                            o.corner_load.size() + o.corner_face.size() + o.row_of.size() + o.node_of.size();
   return static_cast<double>(8 * doubles + 4 * ints) / o.nodes;
 }

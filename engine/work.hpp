@@ -35,7 +35,7 @@ struct Carried {
 namespace bytes {
 inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, dP = 96, GP = 288, L = 32, lambda = 32, step_length = 8;
 inline constexpr double lists = 12;                                  // out, in, corner
-inline constexpr double edge = 28, edge_a = 4, in_edge = 8;          // b, C; a; edge number and a
+inline constexpr double edge = 28, edge_a = 4, in_edge = 8;          // b, C; a; edge number and first node
 inline constexpr double corner = 32, corner_load = 4;                // b, c, C; load
 }  // namespace bytes
 

@@ -10,8 +10,7 @@ template <class Edge, class Corner>
 NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, Edge edge, Corner corner) {
   for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) edge(Outward(), e, edges.b[e]);
   for (std::int32_t k = lists.in[n]; k < lists.in[n + 1]; ++k) {
-    const std::int32_t e = lists.in_edges[k];
-    edge(Inward(), e, edges.a[e]);
+    edge(Inward(), lists.in_edges[k], lists.in_nodes[k]);
   }
   for (std::int32_t k = lists.corner[n]; k < lists.corner[n + 1]; ++k) corner(corners.b[k], corners.c[k], corners.C[0][k], corners.C[1][k], corners.C[2][k]);
 }
@@ -22,7 +21,7 @@ NANSON_INLINE void prefetch_edges(int n, const EdgeArrays& edges, const NodeList
   constexpr int ahead = 256;
   const std::ptrdiff_t e = lists.out[n] + ahead;
   for (const double* C : edges.C) __builtin_prefetch(C + e), __builtin_prefetch(C + e + 8);
-  __builtin_prefetch(edges.b + e + 200), __builtin_prefetch(lists.in_edges + lists.in[n] + ahead);
+  __builtin_prefetch(edges.b + e + 200), __builtin_prefetch(lists.in_edges + lists.in[n] + ahead), __builtin_prefetch(lists.in_nodes + lists.in[n] + ahead);
 }
 /// Asks for the row at the other end of an out-edge that comes `ahead` edges later; those of in-edges are the part's own.
 template <std::ptrdiff_t width, int ahead, int lines = 1, class Sense>
@@ -39,7 +38,7 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
   Vec4 g0{}, g1{}, g2{};
   around(
       n, edges, corners, lists,
-      [&](auto sense, std::int32_t e, int b) {
+      [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
         prefetch_row<row::W, 200>(sense, rows.W, edges, e);
         const Vec4 d = Wa - load4(rows.W + row::W * b);  // this way round the load is part of the subtraction
         const auto back = opposite(sense);
@@ -64,7 +63,7 @@ NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArr
   };
   around(
       n, edges, corners, lists,
-      [&](auto sense, std::int32_t e, int b) {
+      [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
         prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
         for (int I = 0; I < 3; ++I) add(sense, I, load4(rows.PH + row::PH * b + 8 * I) - load4(Pa + 8 * I), edges.C[0][e], edges.C[1][e], edges.C[2][e]);
       },
@@ -95,7 +94,7 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
   };
   around(
       n, edges, corners, lists,
-      [&](auto sense, std::int32_t e, int b) {
+      [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
         prefetch_row<row::W, 200>(sense, rows.W, edges, e), prefetch_row<row::X, 60>(sense, rows.X, edges, e), prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
         const double* Pb = rows.PH + row::PH * b;
         const Vec8 C[3] = {broadcast8(edges.C[0][e]), broadcast8(edges.C[1][e]), broadcast8(edges.C[2][e])};
@@ -139,7 +138,7 @@ NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& c
   Vec4 above{}, below{}, rise{}, fall{};
   around(
       n, edges, corners, lists,
-      [&](auto sense, std::int32_t e, int b) {
+      [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
         prefetch_row<row::X, 60>(sense, rows.X, edges, e);
         const Vec4 d = load4(rows.W + row::W * b) - Wa, slope = along(G, load4(rows.X + row::X * b) - Xa) * 0.5;
         above = larger(above, d), below = smaller(below, d), rise = larger(rise, slope), fall = smaller(fall, slope);
@@ -154,7 +153,7 @@ NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const Corner
   Vec4 sum{};
   around(
       n, edges, corners, lists,
-      [&](auto sense, std::int32_t e, int b) {
+      [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
         prefetch_row<row::X, 60>(sense, rows.X, edges, e);
         const Vec4 weight = dot3(lambda, load4(rows.X + row::X * b) - Xa) + 1.0;
         sum = fma(weight, load4(rows.W + row::W * b) - Wa, sum);

@@ -70,7 +70,8 @@ struct CornerArrays {
 struct NodeLists {
   const std::int32_t* out;
   const std::int32_t* in;
-  const std::int32_t* in_edges;  // edge numbers
+  const std::int32_t* in_edges;  // edge numbers ...
+  const std::int32_t* in_nodes;  // ... and their first nodes a: looked up through the edge, they would wait for each other
   const std::int32_t* corner;
 };
 

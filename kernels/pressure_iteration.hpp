@@ -14,7 +14,7 @@ inline void pressure_force_part(const Part& part, const EdgeArrays& edges, const
       f = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e) + 4), broadcast4(rows.d[edges.b[e]]), f);
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
-      in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e)), broadcast4(rows.d[edges.a[e]]), in);
+      in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e)), broadcast4(rows.d[lists.in_nodes[i]]), in);
     }
     f = f - in;
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) {
@@ -48,7 +48,7 @@ inline Three pressure_operator_part(const Part& part, const EdgeArrays& edges, c
       D = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e)), load4(rows.V + row::V * edges.b[e]), D);
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
-      in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e) + 4), load4(rows.V + row::V * edges.a[e]), in);
+      in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e) + 4), load4(rows.V + row::V * lists.in_nodes[i]), in);
     }
     D = D - in;
     const Vec4 Va = load4(rows.V + row::V * n);

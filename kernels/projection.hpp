@@ -114,7 +114,7 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const double* E = rows.E + row::E * static_cast<std::ptrdiff_t>(lists.in_edges[i]);
-      add(edges.a[lists.in_edges[i]], E[7], E + 4);
+      add(lists.in_nodes[i], E[7], E + 4);
     }
     diagonal += weights + volume * k.inverse_kappa / k.dt;
     rows.lag[n] = lag, rows.weight_sum[n] = weights, rows.inverse_diagonal[n] = diagonal > 0 ? 1.0 / diagonal : 0.0;
@@ -142,7 +142,7 @@ inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges,
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
-      const Vec4 d = load4(rows.U + row::U * edges.a[e]) - Ua;
+      const Vec4 d = load4(rows.U + row::U * lists.in_nodes[i]) - Ua;
       add(d, -edges.C[0][e], -edges.C[1][e], -edges.C[2][e]);
       S = fma(rows.E[row::E * static_cast<std::ptrdiff_t>(e) + 7], d[3], S);
     }

@@ -36,7 +36,7 @@ struct Corners {
     r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.loads = loads.data();
     for (double& f : force) f = -7;
     find_part_functions(physics, MaterialSpec{})
-        .edge_flux({0, rows, 0, 0, 0, 2, 0, 0}, {none, none, {zero, zero, zero}}, {b, c, {C[0], C[1], C[2]}, load}, {none, none, none, begin}, r, k,
+        .edge_flux({0, rows, 0, 0, 0, 2, 0, 0}, {none, none, {zero, zero, zero}}, {b, c, {C[0], C[1], C[2]}, load}, {none, none, none, none, begin}, r, k,
                    {nullptr, force, nullptr, nullptr});
     return force + 4 * g;
   }

@@ -94,7 +94,7 @@ struct TwoParts {
     return r;
   }
   EdgeArrays edges() const { return {first, second, {C[0], C[1], C[2]}}; }
-  NodeLists lists() const { return {out, none, none, none}; }
+  NodeLists lists() const { return {out, none, none, none, none}; }
   bool takes_lagged = false;
   PartFunctions functions(const Combination& c, bool audits = false) const { return find_part_functions(c.physics, MaterialSpec{}, Materials::one, audits, takes_lagged); }
 

@@ -144,6 +144,7 @@ TEST(Order, NodeListsHoldEveryNeighbourOnce) {
     for (int e = o.out[r]; e < o.out[r + 1]; ++e) found[r].insert(o.b[e]);
     for (int k = o.in[r]; k < o.in[r + 1]; ++k) {
       EXPECT_EQ(o.b[o.in_edges[k]], r);
+      EXPECT_EQ(o.a[o.in_edges[k]], o.in_nodes[k]);
       found[r].insert(o.a[o.in_edges[k]]);
     }
   }
