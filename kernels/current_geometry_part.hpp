@@ -29,6 +29,8 @@ inline void dual_areas_part(const Part& part, const EdgeArrays& edges, const Cor
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
     const Vec4 m = (x(edges.a[e]) + x(edges.b[e])) * 0.5;
     Vec4 sum{};
+    for (int line = 0; line < 2; ++line) __builtin_prefetch(areas.cd + 2 * areas.ring[e] + 512 + 16 * line);
+    __builtin_prefetch(areas.x + row::x * edges.b[e + 100]);  // c and d are neighbours of a too
     for (std::int32_t i = areas.ring[e]; i < areas.ring[e + 1]; ++i) {
       const Vec4 p = x(areas.cd[2 * i]) - m, q = x(areas.cd[2 * i + 1]) - m;
       sum = sum + (p * rotated(q) - rotated(p) * q);
@@ -57,7 +59,8 @@ inline void area_map_part(const Part& part, const EdgeArrays& edges, const Corne
 inline void mapped_areas_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const CurrentAreas& areas) {
   const auto H = [&](std::int32_t n, int I) { return load4(areas.map + row::H * static_cast<std::ptrdiff_t>(n) + 4 * I); };
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
-    const std::int32_t a = edges.a[e], b = edges.b[e];
+    const std::int32_t a = edges.a[e], b = edges.b[e], next = edges.b[e + 60];
+    __builtin_prefetch(areas.map + row::H * next), __builtin_prefetch(areas.map + row::H * next + 8);
     Vec4 c{};
     for (int I = 0; I < 3; ++I) c = fma(H(a, I) + H(b, I), broadcast4(0.5 * edges.C[I][e]), c);
     store_area(areas.c, e, c);

@@ -9,19 +9,21 @@ namespace nanson {
 template <class Edge, class Corner>
 NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, Edge edge, Corner corner) {
   for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) edge(Outward(), e, edges.b[e]);
-  for (std::int32_t k = lists.in[n]; k < lists.in[n + 1]; ++k) {
-    edge(Inward(), lists.in_edges[k], lists.in_nodes[k]);
-  }
+  for (std::int32_t k = lists.in[n]; k < lists.in[n + 1]; ++k) edge(Inward(), lists.in_edges[k], lists.in_nodes[k]);
   for (std::int32_t k = lists.corner[n]; k < lists.corner[n + 1]; ++k) corner(corners.b[k], corners.c[k], corners.C[0][k], corners.C[1][k], corners.C[2][k]);
 }
 
-/// Asks for edges that will be read some nodes later: the processor's own prefetch loses the sequence of so many arrays as soon as rows are gathered between them.
-/// The arrays are padded.
+/// Asks for the neighbours of nodes, or for their edges too, that will be read some nodes later: the processor's own prefetch loses the sequence of so many arrays as
+/// soon as rows are gathered between them. The arrays are padded.
+inline constexpr int edges_ahead = 256;
+NANSON_INLINE void prefetch_lists(int n, const EdgeArrays& edges, const NodeLists& lists) {
+  __builtin_prefetch(edges.b + lists.out[n] + edges_ahead + 200);
+  __builtin_prefetch(lists.in_edges + lists.in[n] + edges_ahead), __builtin_prefetch(lists.in_nodes + lists.in[n] + edges_ahead);
+}
 NANSON_INLINE void prefetch_edges(int n, const EdgeArrays& edges, const NodeLists& lists) {
-  constexpr int ahead = 256;
-  const std::ptrdiff_t e = lists.out[n] + ahead;
+  const std::ptrdiff_t e = lists.out[n] + edges_ahead;
   for (const double* C : edges.C) __builtin_prefetch(C + e), __builtin_prefetch(C + e + 8);
-  __builtin_prefetch(edges.b + e + 200), __builtin_prefetch(lists.in_edges + lists.in[n] + ahead), __builtin_prefetch(lists.in_nodes + lists.in[n] + ahead);
+  prefetch_lists(n, edges, lists);
 }
 /// Asks for the row at the other end of an out-edge that comes `ahead` edges later; those of in-edges are the part's own.
 template <std::ptrdiff_t width, int ahead, int lines = 1, class Sense>

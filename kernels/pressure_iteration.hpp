@@ -10,8 +10,11 @@ inline void pressure_force_part(const Part& part, const EdgeArrays& edges, const
                                 const ProjectionCoefficients& k, double keep, double step) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
     Vec4 f{}, in{};
-    for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e)
-      f = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e) + 4), broadcast4(rows.d[edges.b[e]]), f);
+    prefetch_lists(n, edges, lists);
+    for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
+      __builtin_prefetch(rows.E + row::E * (e + 64)), __builtin_prefetch(rows.d + edges.b[e + 100]);
+      f = fma(load4(rows.E + row::E * e + 4), broadcast4(rows.d[edges.b[e]]), f);
+    }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
       in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e)), broadcast4(rows.d[lists.in_nodes[i]]), in);
@@ -44,8 +47,11 @@ inline Three pressure_operator_part(const Part& part, const EdgeArrays& edges, c
   Three sum;
   for (int n = part.node_begin; n < part.node_end; ++n) {
     Vec4 D{}, in{};
-    for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e)
-      D = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e)), load4(rows.V + row::V * edges.b[e]), D);
+    prefetch_lists(n, edges, lists);
+    for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
+      __builtin_prefetch(rows.E + row::E * (e + 64)), __builtin_prefetch(rows.V + row::V * edges.b[e + 100]);
+      D = fma(load4(rows.E + row::E * e), load4(rows.V + row::V * edges.b[e]), D);
+    }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
       in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e) + 4), load4(rows.V + row::V * lists.in_nodes[i]), in);
