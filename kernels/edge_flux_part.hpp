@@ -66,7 +66,8 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
   }
 }
 
-/// Asks for the rows of a node that the update reads after the edge loop: states, or the state and a lagged correction.
+/// Asks for the rows of a node, some nodes ahead, that the update reads after the edge loop: states, or the state and a lagged correction.
+inline constexpr int nodes_ahead = 40;
 NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lagged) {
   for (const double* U : {rows.U_old, takes_lagged ? rows.lagged_dG : rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
 }
@@ -112,7 +113,7 @@ NANSON_INLINE Mask8 counted(const EdgeArrays& edges, std::ptrdiff_t e, int left)
 template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
           Areas areas = Areas::undeformed, Materials materials = Materials::one>
 NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer, double* motion = nullptr) {
-  constexpr int width = finds(correction) ? 8 : 4, nodes_ahead = 40;
+  constexpr int width = finds(correction) ? 8 : 4;
   EdgeBlock block{};
   Vec8 power{};
   for (int begin = part.edge_begin; begin < part.edge_end; begin += edge_block) {

@@ -1,6 +1,7 @@
 // The Jameson-Schmidt-Turkel scheme, the paper's comparison: average fluxes and a fourth-difference dissipation without shock term (method, section 9).
 #pragma once
 #include "kernels/edge_flux_part.hpp"
+#include "kernels/gradient_part.hpp"
 
 namespace nanson {
 
@@ -16,7 +17,9 @@ double edge_flux_jst_part(const Part& part, const EdgeArrays& edges, const Corne
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     const Vec4 La = load4(rows.L + row::L * a);
+    prefetch_edges(a, edges, lists), prefetch_U(a + nodes_ahead, rows, false);
     for (std::int32_t e = lists.out[a]; e < lists.out[a + 1]; ++e) {
+      prefetch_row<row::PH, 60, 3>(Outward(), rows.PH, edges, e), prefetch_row<row::L, 60>(Outward(), rows.L, edges, e);
       const std::int32_t b = edges.b[e];
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
       const Vec4 t = low(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
