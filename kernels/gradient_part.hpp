@@ -55,36 +55,12 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
   store4(G, g0 * half_inverse), store4(G + 4, g1 * half_inverse), store4(G + 8, g2 * half_inverse);
 }
 
-/// Gradient of the stress, dP_iI/dX_K [Pa/m], by the same rule; K-major as in row::GP.
-NANSON_INLINE void gradient_of_P(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, Vec4 (&g)[3][3]) {
-  const double* Pa = rows.PH + row::PH * n;
-  for (auto& gk : g)
-    for (auto& gki : gk) gki = Vec4{};
-  auto add = [&](auto sense, int I, Vec4 d, double C0, double C1, double C2) {
-    g[0][I] = add_product(sense, d, broadcast4(C0), g[0][I]), g[1][I] = add_product(sense, d, broadcast4(C1), g[1][I]), g[2][I] = add_product(sense, d, broadcast4(C2), g[2][I]);
-  };
-  around(
-      n, edges, corners, lists,
-      [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
-        for (int I = 0; I < 3; ++I) add(sense, I, load4(rows.PH + row::PH * b + 8 * I) - load4(Pa + 8 * I), edges.C[0][e], edges.C[1][e], edges.C[2][e]);
-      },
-      [&](int b, int c, double C0, double C1, double C2) {
-        for (int I = 0; I < 3; ++I) {
-          const Vec4 P = load4(Pa + 8 * I);
-          add(Outward(), I, ((load4(rows.PH + row::PH * b + 8 * I) - P) + (load4(rows.PH + row::PH * c + 8 * I) - P)) * 0.25, C0, C1, C2);
-        }
-      });
-  const Vec4 half_inverse = broadcast4(0.5 * rows.X[row::X * n + 3]);
-  for (auto& gk : g)
-    for (auto& gki : gk) gki = gki * half_inverse;
-}
-
-/// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP, and what the full flux correction adds to the nodal stress,
+/// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP; `corrects`: also what the full flux correction adds to the nodal stress,
 /// dP_a = theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14). One visit of the neighbours: sum_b C_I D_K D_L is taken
 /// beside the differences and meets the gradient of P when that is known. {P + dP | H} goes into the rows that the next stress overwrites: the edges read it there.
-NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
-                                    Vec4 (&g)[3][3]) {
+template <bool corrects>
+NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
+                                        Vec4 (&g)[3][3]) {
   prefetch_edges(n, edges, lists);
   const double* Pa = rows.PH + row::PH * n;
   const Vec4 Xa = load4(rows.X + row::X * n), Wa = load4(rows.W + row::W * n), P[3] = {load4(Pa), load4(Pa + 8), load4(Pa + 16)};
@@ -97,15 +73,18 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
   around(
       n, edges, corners, lists,
       [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::W, 200>(sense, rows.W, edges, e), prefetch_row<row::X, 60>(sense, rows.X, edges, e), prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
+        prefetch_row<row::W, 200>(sense, rows.W, edges, e), prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
         const double* Pb = rows.PH + row::PH * b;
         const Vec8 C[3] = {broadcast8(edges.C[0][e]), broadcast8(edges.C[1][e]), broadcast8(edges.C[2][e])};
-        const Vec4 D = Xa - load4(rows.X + row::X * b), d0 = P[0] - load4(Pb), d1 = P[1] - load4(Pb + 8), d2 = P[2] - load4(Pb + 16);
+        const Vec4 d0 = P[0] - load4(Pb), d1 = P[1] - load4(Pb + 8), d2 = P[2] - load4(Pb + 16);
         add(opposite(sense), d0, d1, d2, Wa - load4(rows.W + row::W * b), C);
-        const Vec4 y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
-        q[0] = add_product(sense, y, spread<0>(D), q[0]), q[1] = add_product(sense, y, spread<1>(D), q[1]), q[2] = add_product(sense, y, spread<2>(D), q[2]);
-        const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
-        for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
+        if constexpr (corrects) {
+          prefetch_row<row::X, 60>(sense, rows.X, edges, e);
+          const Vec4 D = Xa - load4(rows.X + row::X * b), y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
+          q[0] = add_product(sense, y, spread<0>(D), q[0]), q[1] = add_product(sense, y, spread<1>(D), q[1]), q[2] = add_product(sense, y, spread<2>(D), q[2]);
+          const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
+          for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
+        }
       },
       [&](int b, int c, double C0, double C1, double C2) {
         const double *Pb = rows.PH + row::PH * b, *Pc = rows.PH + row::PH * c, *Wb = rows.W + row::W * b, *Wc = rows.W + row::W * c;
@@ -120,6 +99,7 @@ NANSON_INLINE void corrected_stress(int n, const EdgeArrays& edges, const Corner
     g[K][0] = low(a), g[K][1] = high(a), g[K][2] = low(b);
     store4(rows.G + row::G * n + 4 * K, high(b));
   }
+  if constexpr (!corrects) return;
   constexpr int lane[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
   for (int L = 0; L < 3; ++L) {
     Vec4 sum = -q[L];
@@ -168,11 +148,8 @@ template <bool tensor_jump, bool full_correction, NodeWeights weights>
 void gradient_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
     Vec4 gradient_P[3][3];
-    if constexpr (full_correction)
-      corrected_stress(n, edges, corners, lists, rows, k, gradient_P);
-    else
-      gradient_of_W(n, edges, corners, lists, rows);
-    if constexpr (tensor_jump && !full_correction) gradient_of_P(n, edges, corners, lists, rows, gradient_P);
+    if constexpr (tensor_jump || full_correction) gradients_of_W_and_P<full_correction>(n, edges, corners, lists, rows, k, gradient_P);
+    else gradient_of_W(n, edges, corners, lists, rows);
     if constexpr (tensor_jump)
       for (int m = 0; m < 9; ++m) store4(rows.GP + row::GP * n + 4 * m, gradient_P[m / 3][m % 3]);
     if constexpr (weights == NodeWeights::limiter) limiter(n, edges, corners, lists, rows);
