@@ -17,14 +17,24 @@ struct CacheLineAllocator {
   template <class Other>
   CacheLineAllocator(const CacheLineAllocator<Other>&) {}
   T* allocate(std::size_t n) {
-    void* p = ::operator new(n * sizeof(T), alignment(n));
+    const std::size_t bytes = n * sizeof(T);
+    void* p = ::operator new(bytes, alignment(n));
+    if (bytes < huge_page) return static_cast<T*>(p);
 #if defined(__linux__)
-    if (n * sizeof(T) >= huge_page) madvise(p, n * sizeof(T), MADV_HUGEPAGE);  // a wish: nothing is lost when it is refused
+    madvise(p, bytes, MADV_HUGEPAGE);  // a wish: nothing is lost when it is refused
 #endif
+    touch(static_cast<volatile char*>(p), bytes);
     return static_cast<T*>(p);
   }
   void deallocate(T* p, std::size_t n) { ::operator delete(p, alignment(n)); }
   static constexpr std::size_t huge_page = std::size_t{2} << 20;  // [bytes]
+  /// Memory belongs to the processor that first writes to it: shares in the threads' order, as parts are dealt out. Inside a parallel region: all to its thread.
+  static void touch(volatile char* p, std::size_t bytes) {
+    const std::ptrdiff_t pages = static_cast<std::ptrdiff_t>((bytes + small_page - 1) / small_page);
+#pragma omp parallel for schedule(static)
+    for (std::ptrdiff_t page = 0; page < pages; ++page) p[page * static_cast<std::ptrdiff_t>(small_page)] = 0;
+  }
+  static constexpr std::size_t small_page = 4096;                // [bytes]
   static std::align_val_t alignment(std::size_t n) { return std::align_val_t{n * sizeof(T) >= huge_page ? huge_page : 64}; }
   template <class Other>
   bool operator==(const CacheLineAllocator<Other>&) const { return true; }

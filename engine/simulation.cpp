@@ -1,4 +1,6 @@
 // Set-up of a simulation: dual, order, boundary, rows, initial state and its stress; and which nodes set the step.
+#include <omp.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -115,7 +117,9 @@ void allocate(Simulation& s, Dual dual, const NodeMaterials& materials) {
   s.current = make_current_geometry(scene.physics.description, mesh, s.order);
   s.projection = make_projection(scene, s.order, s.boundary, s.state.X, s.coefficients.material);
   s.reports.resize(s.order.parts.size()), s.part_sums.resize(s.order.parts.size()), s.part_rows.resize(s.order.parts.size()), s.acceleration.assign(scene.boundary.size(), 0.0);
-  s.scratch.assign(static_cast<std::size_t>(s.threads), Aligned<double>(std::max(part_scratch(s.order), mixture_scratch(s.order.most_nodes)), 0.0));
+  s.scratch.resize(static_cast<std::size_t>(s.threads));
+#pragma omp parallel for schedule(static) num_threads(s.threads)  // each by its own thread
+  for (int t = 0; t < s.threads; ++t) s.scratch[static_cast<std::size_t>(t)].assign(std::max(part_scratch(s.order), mixture_scratch(s.order.most_nodes)), 0.0);
 }
 
 void start(Simulation& s) {
@@ -132,6 +136,7 @@ void start(Simulation& s) {
 Simulation make_simulation(const Scene& scene, const Mesh& mesh, int threads) {
   Simulation s;
   s.scene = &scene, s.mesh = &mesh, s.threads = std::max(1, threads);
+  omp_set_num_threads(s.threads);  // of the threads that place large arrays
   Dual dual;
   s.setup.time("dual", [&] { dual = checked_dual(mesh); });
   NodeMaterials materials;

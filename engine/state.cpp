@@ -113,12 +113,12 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   if (p.formulation != Formulation::pFp) out.push_back("projection (pFp): rows of edges and of its iteration");
   if (!has_current_areas(p.description)) out.push_back("current dual geometry (description = total): areas of edges and faces, a sweep a stage");
   if (p.reconstruction == Reconstruction::constant && p.formulation != Formulation::pFp) out.push_back("gradients and their sweep (constant reconstruction): 96 bytes");
-  if (p.flux_correction != FluxCorrection::full) out.push_back("Q and its pass (flux_correction is not full): 96 bytes");
+  if (p.flux_correction != FluxCorrection::full) out.push_back("dP and its sums in the gradient sweep (flux_correction is not full): 96 bytes");
   if (p.pressure_jump == PressureJump::scalar) out.push_back("gradient of P (scalar pressure jump): 288 bytes");
   if (p.reconstruction != Reconstruction::limited) out.push_back("limiter (reconstruction is not limited): 32 bytes");
   if (!p.keep_angular_momentum) out.push_back("angular momentum projection (keep_angular_momentum = false): two passes over the nodes a stage");
   if (scene.materials.empty()) out.push_back("densities and material shares of nodes, impedances of edges (one material): about 150 bytes");
-  if (!scene.monitor.energy) out.push_back("energy audit (monitor.energy = false): one edge sweep a stage");
+  if (!scene.monitor.energy) out.push_back("energy audit (monitor.energy = false): the power of the stabilisation in the edge loop");
   return out;
 }
 
