@@ -7,19 +7,28 @@ namespace nanson {
 /// About the point o: sum Omega, sum Omega r (3), sum Omega r (x) r (6: 11 22 33 12 13 23), sum r x f (3); r = y - o, f [N] all forces of the stage.
 inline constexpr int moment_count = 13;
 
-/// `nodes` leaves out the padding. y stands in the rows U `arms`, f in scratch.force (after the supports).
+/// `nodes` leaves out the padding. y stands in the rows U `arms`, f in scratch.force (after the supports). Eight nodes at a time.
 inline void moments_part(const Part& part, int nodes, const double* X, const double* arms, const double (&o)[3], const Scratch& scratch, double* sums) {
-  for (int i = 0; i < moment_count; ++i) sums[i] = 0;
-  for (int n = part.node_begin; n < part.node_begin + nodes; ++n) {
-    const double volume = 1 / X[row::X * n + 3], *y = arms + row::U * n, *f = scratch.force + 4 * (n - part.node_begin);
-    const double r[3] = {y[7] - o[0], y[11] - o[1], y[15] - o[2]};
-    sums[0] += volume;
+  const Vec8 lane{0, 1, 2, 3, 4, 5, 6, 7}, zero{};
+  Vec8 sum_of[moment_count] = {};
+  const auto add = [&](int i, Vec8 term) { sum_of[i] = sum_of[i] + term; };
+  for (int at = 0; at < nodes; at += 8) {
+    const std::ptrdiff_t n = part.node_begin + at;
+    const Mask8 real = lane < static_cast<double>(nodes - at);
+    Vec8 r[3], f[3], inverse_volume, a, b, c;
+    load_transposed(X + row::X * n, row::X, a, b, c, inverse_volume);
+    load_transposed(scratch.force + 4 * at, 4, f[0], f[1], f[2], a);
+    for (int k = 0; k < 3; ++k) load_transposed(arms + row::U * n + 4 * (k + 1), row::U, a, b, c, r[k]);
+    const Vec8 volume = choose(real, 1.0 / inverse_volume, zero);
+    for (int k = 0; k < 3; ++k) r[k] = r[k] - o[k], f[k] = choose(real, f[k], zero);
+    add(0, volume);
     for (int k = 0; k < 3; ++k) {
-      sums[1 + k] += volume * r[k], sums[4 + k] += volume * (r[k] * r[k]);
-      sums[10 + k] += r[(k + 1) % 3] * f[(k + 2) % 3] - r[(k + 2) % 3] * f[(k + 1) % 3];
+      add(1 + k, volume * r[k]), add(4 + k, volume * (r[k] * r[k]));
+      add(10 + k, r[(k + 1) % 3] * f[(k + 2) % 3] - r[(k + 2) % 3] * f[(k + 1) % 3]);
     }
-    sums[7] += volume * (r[0] * r[1]), sums[8] += volume * (r[0] * r[2]), sums[9] += volume * (r[1] * r[2]);
+    add(7, volume * (r[0] * r[1])), add(8, volume * (r[0] * r[2])), add(9, volume * (r[1] * r[2]));
   }
+  for (int i = 0; i < moment_count; ++i) sums[i] = sum(sum_of[i]);
 }
 
 /// f += Omega lambda x (y - c) on the stage's new rows: dt lambda x (y - c)/rho0 is added to v, but for the held directions, whose supports react.
