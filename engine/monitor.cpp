@@ -20,15 +20,13 @@ Rows present_rows(Simulation& s) {
   return r;
 }
 
-/// Sum over the nodes (padding left out) of term(U row, mass), part by part.
-template <class Term>
-double sum_over_nodes(Simulation& s, Term term) {
-  return sum_over_parts(s, [&](int p) {
+/// Sums over the nodes (padding left out) of what add(U row, mass, sums) adds, part by part.
+template <std::size_t count, class Add>
+std::array<double, count> sums_over_nodes(Simulation& s, Add add) {
+  return sums_over_parts<count>(s, [&](int p, double* sums) {
     const Part& part = s.order.parts[static_cast<std::size_t>(p)];
-    double sum = 0;
     for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n)
-      if (!is_padding(s, n)) sum += term(&s.state.U[0][static_cast<std::size_t>(row::U * n)], density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)]);
-    return sum;
+      if (!is_padding(s, n)) add(&s.state.U[0][static_cast<std::size_t>(row::U * n)], density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)], sums);
   });
 }
 
@@ -51,7 +49,7 @@ double detF(const double* U) {
 Energies energies(Simulation& s) {
   const Rows rows = present_rows(s);
   Energies e;
-  e.kinetic = sum_over_nodes(s, [](const double* U, double m) { return 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]); });
+  e.kinetic = sums_over_nodes<1>(s, [](const double* U, double m, double* sum) { *sum += 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]); })[0];
   e.strain = sum_over_parts(s, [&](int p) {
     if (!s.mixture.empty()) {
       double sum = 0;
@@ -67,31 +65,31 @@ Energies energies(Simulation& s) {
 }
 
 Momenta momenta(Simulation& s) {
-  Momenta m;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    m.linear[k] = sum_over_nodes(s, [&](const double* U, double mass) { return mass * U[k]; });
-    m.angular[k] = sum_over_nodes(s, [&](const double* U, double mass) { return mass * (position(U, i) * U[j] - position(U, j) * U[i]); });
-  }
-  m.linear_scale = sum_over_nodes(s, [](const double* U, double mass) { return mass * norm3(U[0], U[1], U[2]); });
-  m.angular_scale =
-      sum_over_nodes(s, [](const double* U, double mass) { return mass * norm3(U[0], U[1], U[2]) * norm3(position(U, 0), position(U, 1), position(U, 2)); });
-  return m;
+  const auto sum = sums_over_nodes<8>(s, [](const double* U, double mass, double* out) {
+    const double speed = norm3(U[0], U[1], U[2]);
+    for (int k = 0; k < 3; ++k) {
+      const int i = (k + 1) % 3, j = (k + 2) % 3;
+      out[k] += mass * U[k], out[3 + k] += mass * (position(U, i) * U[j] - position(U, j) * U[i]);
+    }
+    out[6] += mass * speed, out[7] += mass * speed * norm3(position(U, 0), position(U, 1), position(U, 2));
+  });
+  return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}, sum[6], sum[7]};
 }
 
 Extrema extrema(const Simulation& s) {
-  Extrema e{1e300, -1e300, 1e300, -1e300, 0, 0};
   const bool with_J = evolves_J(s.scene->physics.formulation);
+  double least_d = 1e300, most_d = -1e300, least_J = 1e300, most_J = -1e300, speed = 0, strain = 0;
+#pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min : least_d, least_J) reduction(max : most_d, most_J, speed, strain)
   for (int n = 0; n < s.order.rows; ++n) {
     if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * n)];
     const double d = detF(U), J = with_J ? U[3] : d;
-    e.min_detF = std::min(e.min_detF, d), e.max_detF = std::max(e.max_detF, d);
-    e.min_J = std::min(e.min_J, J), e.max_J = std::max(e.max_J, J);
-    e.max_speed = std::max(e.max_speed, norm3(U[0], U[1], U[2]));
-    if (!s.state.plastic.empty()) e.max_plastic_strain = std::max(e.max_plastic_strain, s.state.plastic[static_cast<std::size_t>(row::plastic * n + 3)]);
+    least_d = std::min(least_d, d), most_d = std::max(most_d, d);
+    least_J = std::min(least_J, J), most_J = std::max(most_J, J);
+    speed = std::max(speed, norm3(U[0], U[1], U[2]));
+    if (!s.state.plastic.empty()) strain = std::max(strain, s.state.plastic[static_cast<std::size_t>(row::plastic * n + 3)]);
   }
-  return e;
+  return {least_d, most_d, least_J, most_J, speed, strain};
 }
 
 double energy_closure(Simulation& s) {

@@ -9,12 +9,12 @@ inline constexpr int moment_count = 13;
 
 /// `nodes` leaves out the padding. y stands in the rows U `arms`, f in scratch.force (after the supports). Eight nodes at a time.
 inline void moments_part(const Part& part, int nodes, const double* X, const double* arms, const double (&o)[3], const Scratch& scratch, double* sums) {
-  const Vec8 lane{0, 1, 2, 3, 4, 5, 6, 7}, zero{};
+  const Vec8 zero{};
   Vec8 sum_of[moment_count] = {};
   const auto add = [&](int i, Vec8 term) { sum_of[i] = sum_of[i] + term; };
   for (int at = 0; at < nodes; at += 8) {
     const std::ptrdiff_t n = part.node_begin + at;
-    const Mask8 real = lane < static_cast<double>(nodes - at);
+    const Mask8 real = first_lanes(nodes - at);
     Vec8 r[3], f[3], inverse_volume, a, b, c;
     load_transposed(X + row::X * n, row::X, a, b, c, inverse_volume);
     load_transposed(scratch.force + 4 * at, 4, f[0], f[1], f[2], a);

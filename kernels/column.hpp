@@ -108,6 +108,9 @@ NANSON_INLINE Mask8 less8(const std::int32_t* a, const std::int32_t* b) {
   return __builtin_convertvector(*reinterpret_cast<const Int8*>(a) < *reinterpret_cast<const Int8*>(b), Mask8);
 }
 
+/// The first lanes of eight.
+NANSON_INLINE Mask8 first_lanes(std::ptrdiff_t count) { return Vec8{0, 1, 2, 3, 4, 5, 6, 7} < static_cast<double>(count); }
+
 /// Sum of the lanes, pair by pair.
 NANSON_INLINE double sum(Vec8 x) {
   const Vec4 s = low(x) + high(x);

@@ -103,8 +103,7 @@ NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho
 
 /// Of eight edges, those that are the part's to count: not past its end, and of an edge between two parts one copy (inside a part a < b always).
 NANSON_INLINE Mask8 counted(const EdgeArrays& edges, std::ptrdiff_t e, int left) {
-  const Vec8 lane{0, 1, 2, 3, 4, 5, 6, 7};
-  return less8(edges.a + e, edges.b + e) & (lane < static_cast<double>(left));
+  return less8(edges.a + e, edges.b + e) & first_lanes(left);
 }
 
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).

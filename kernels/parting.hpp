@@ -24,9 +24,10 @@ NANSON_INLINE void add_parting(Stress<Real>& s, const Tensor<Real>& F, Real J, d
   s.rho_c2 = s.rho_c2 + M * s.H2 * (gap * (gap - l * (inverse_d + inverse_J)));
 }
 
-NANSON_INLINE double parting_energy(const Tensor<double>& F, double J, double M) {
-  const double l = logarithm(determinant(F, cofactor(F)) / J);
-  return 0.5 * M * l * l;
+template <class Real>
+NANSON_INLINE Real parting_energy(const Tensor<Real>& F, Real J, double M) {
+  const Real l = logarithm(determinant(F, cofactor(F)) / J);
+  return 0.5 * M * (l * l);
 }
 
 }  // namespace nanson

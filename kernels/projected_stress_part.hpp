@@ -45,14 +45,18 @@ PartReport projected_stress_part(const Part& part, const Rows& rows, const Coeff
 template <Law law>
 double projected_energy_part(const Part& part, const Rows& rows, const Coefficients& k) {
   const MaterialConstants m = isochoric(k.material);
-  double sum = 0;
-  for (int n = part.node_begin; n < part.node_end; ++n) {
+  Vec8 total{};
+  for (std::ptrdiff_t n = part.node_begin; n < part.node_end; n += 8) {
     const double* U = rows.U_new + row::U * n;
-    Tensor<double> F;
-    for (int i = 0; i < 9; ++i) F[i % 3][i / 3] = U[4 * (i / 3 + 1) + i % 3];
-    sum += (IsochoricMaterial<law>::energy(F, F, 1.0, m) + 0.5 * U[3] * U[3] / k.material.kappa) / rows.X[row::X * n + 3];
+    Vec8 v[3], X[3], p, x, inverse_volume;
+    Tensor<Vec8> F;
+    load_transposed(U, row::U, v[0], v[1], v[2], p);
+    for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
+    load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);
+    const Vec8 density = IsochoricMaterial<law>::energy(F, F, Vec8{} + 1.0, m) + 0.5 / k.material.kappa * (p * p);
+    total = total + choose(first_lanes(part.node_end - n), density / inverse_volume, Vec8{});
   }
-  return sum;
+  return sum(total);
 }
 
 }  // namespace nanson

@@ -119,13 +119,15 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
     return out;
   }
 
-  static double energy(const Tensor<double>& F, double evolved_J, const PlasticState<double>& z, const MaterialConstants& m) {
-    const Spectrum<double> b = symmetric_eigen(elastic_strain(F, z.C_p_inv));
-    double e[3], dev2 = 0;
+  template <class Real>
+  NANSON_INLINE static Real energy(const Tensor<Real>& F, std::type_identity_t<Real> evolved_J, const PlasticState<Real>& z, const MaterialConstants& m) {
+    const Spectrum<Real> b = symmetric_eigen(elastic_strain(F, z.C_p_inv));
+    Real e[3], dev2{};
     for (int k = 0; k < 3; ++k) e[k] = 0.5 * logarithm(b.value[k]);
-    for (int k = 0; k < 3; ++k) dev2 += (e[k] - (e[0] + e[1] + e[2]) / 3) * (e[k] - (e[0] + e[1] + e[2]) / 3);
-    const double ln_J = logarithm(formulation == Formulation::pF ? determinant(F, cofactor(F)) : evolved_J);
-    return m.mu * dev2 + 0.5 * m.kappa * ln_J * ln_J;
+    const Real mean = (e[0] + e[1] + e[2]) * (1.0 / 3.0);
+    for (int k = 0; k < 3; ++k) dev2 = dev2 + (e[k] - mean) * (e[k] - mean);
+    const Real ln_J = logarithm(formulation == Formulation::pF ? determinant(F, cofactor(F)) : evolved_J);
+    return m.mu * dev2 + 0.5 * m.kappa * (ln_J * ln_J);
   }
 };
 

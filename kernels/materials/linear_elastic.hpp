@@ -25,15 +25,17 @@ struct Material<Law::linear_elastic, volumetric, isochoric, formulation> {
     s.H2 = p - p + 1.0;
     return s;
   }
-  static double energy(const Tensor<double>& F, const Tensor<double>&, double J, const MaterialConstants& m) {
-    const double trace = F[0][0] + F[1][1] + F[2][2] - 3.0;
-    double dev2 = 0;
+  template <class Real>
+  NANSON_INLINE static Real energy(const Tensor<Real>& F, const Tensor<Real>&, Real J, const MaterialConstants& m) {
+    const Real trace = F[0][0] + F[1][1] + F[2][2] - 3.0;
+    Real dev2{};
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) {
-        const double e = 0.5 * (F[i][I] + F[I][i]) - (i == I ? 1.0 + trace / 3 : 0.0);
-        dev2 += e * e;
+        Real e = 0.5 * (F[i][I] + F[I][i]);
+        if (i == I) e = e - (1.0 + trace / 3.0);
+        dev2 = dev2 + e * e;
       }
-    const double e = formulation == Formulation::pF ? trace : J - 1;
+    const Real e = formulation == Formulation::pF ? trace : J - 1.0;
     return m.mu * dev2 + 0.5 * m.kappa * e * e;
   }
 };

@@ -60,11 +60,16 @@ struct PolyconvexMaterial {
     return q;
   }
 
-  static double energy(const Tensor<double>& F, const Tensor<double>& evolved_H, double evolved_J, const MaterialConstants& m) {
-    const Tensor<double> cof = cofactor(F), H = formulation == Formulation::pFHJ ? evolved_H : cof;
-    const double detF = determinant(F, cof), J = formulation == Formulation::pF ? detF : evolved_J;
-    const double j = isochoric == Isochoric::J ? J : detF, HH = contract(H, H);
-    const double iso = m.zeta * std::pow(j, -2.0 / 3) * contract(F, F) + m.xi * HH * std::sqrt(HH) / (j * j) - 3 * (m.zeta + std::sqrt(3.0) * m.xi);
+  template <class Real>
+  NANSON_INLINE static Real energy(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const MaterialConstants& m) {
+    const Tensor<Real> cof = cofactor(F), H = formulation == Formulation::pFHJ ? evolved_H : cof;
+    const Real detF = determinant(F, cof), J = formulation == Formulation::pF ? detF : evolved_J;
+    const Real j = isochoric == Isochoric::J ? J : detF, j_third = cube_root(j);
+    Real iso = m.zeta * contract(F, F) / (j_third * j_third) - 3.0 * m.zeta;
+    if constexpr (with_xi) {
+      const Real HH = contract(H, H);
+      iso = iso + (m.xi * HH * root(HH) / (j * j) - 3.0 * root(3.0) * m.xi);
+    }
     return iso + U::U(J, m.kappa);
   }
 };

@@ -1,6 +1,5 @@
 // Volumetric energies U(J), U' and U'' [Pa].
 #pragma once
-#include <cmath>
 
 #include "kernels/column.hpp"
 #include "kernels/traits.hpp"
@@ -13,7 +12,8 @@ struct VolumetricEnergy;
 /// U = kappa/2 (J - 1)^2 (paper, eq. 14): no barrier at J = 0.
 template <>
 struct VolumetricEnergy<Volumetric::quadratic> {
-  static double U(double J, double kappa) { return 0.5 * kappa * (J - 1) * (J - 1); }
+  template <class Real>
+  NANSON_INLINE static Real U(Real J, double kappa) { return 0.5 * kappa * ((J - 1.0) * (J - 1.0)); }
   template <class Real>
   NANSON_INLINE static Real dU(Real J, double kappa) { return kappa * (J - 1.0); }
   template <class Real>
@@ -23,7 +23,8 @@ struct VolumetricEnergy<Volumetric::quadratic> {
 /// U = kappa/2 [(J^2 - 1)/2 - ln J]: infinite at J = 0.
 template <>
 struct VolumetricEnergy<Volumetric::barrier> {
-  static double U(double J, double kappa) { return 0.5 * kappa * (0.5 * (J * J - 1) - std::log(J)); }
+  template <class Real>
+  NANSON_INLINE static Real U(Real J, double kappa) { return 0.5 * kappa * (0.5 * (J * J - 1.0) - logarithm(J)); }
   template <class Real>
   NANSON_INLINE static Real dU(Real J, double kappa) { return 0.5 * kappa * (J - 1.0 / J); }
   template <class Real>
