@@ -44,6 +44,7 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
     __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
     if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
+    if constexpr (reconstruction == Reconstruction::limited) __builtin_prefetch(rows.L + row::L * next);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
     const double* const(&area)[3] = areas == Areas::current ? edges.c : edges.C;
@@ -66,10 +67,12 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
   }
 }
 
-/// Asks for the rows of a node, some nodes ahead, that the update reads after the edge loop: states, or the state and a lagged correction.
+/// Asks for the rows of a node, some nodes ahead, that the update reads after the edge loop: states, or the state and a lagged correction; H where it is carried.
 inline constexpr int nodes_ahead = 40;
 NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lagged) {
   for (const double* U : {rows.U_old, takes_lagged ? rows.lagged_dG : rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
+  if (rows.H_old)
+    for (const double* H : {rows.H_old, rows.H_stage}) __builtin_prefetch(H + row::H * n), __builtin_prefetch(H + row::H * n + 8);
 }
 
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`. Returns the power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J
@@ -125,7 +128,10 @@ NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const
       if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at;
       const Vec8 size = edge_sizes(edges, begin + at);
       double* of_motion = nullptr;
-      if constexpr (areas == Areas::current) of_motion = motion + (begin + at - part.edge_begin);
+      if constexpr (areas == Areas::current) {  // twice as many arrays: the processor's own prefetch loses their sequence
+        for (int i = 0; i < 3; ++i) __builtin_prefetch(edges.c[i] + begin + at + 256), __builtin_prefetch(edges.C[i] + begin + at + 256);
+        of_motion = motion + (begin + at - part.edge_begin);
+      }
       Vec8 of_edges;
       if constexpr (materials == Materials::several)
         of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(block, at, size, load8_anywhere(edges.rho_cp + begin + at),
