@@ -90,7 +90,7 @@ std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes)
   const Momenta m = momenta(s);
   const Extrema x = extrema(s);
   std::vector<double> row{static_cast<double>(s.step), s.t, s.dt, e.kinetic, e.strain};
-  if (s.scene->monitor.energy) row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s)});
+  if (s.scene->monitor.energy) row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s, e)});
   if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) row.push_back(s.ledger.angular_momentum_work);
   row.insert(row.end(), m.linear.begin(), m.linear.end());
   row.insert(row.end(), m.angular.begin(), m.angular.end());

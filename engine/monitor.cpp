@@ -92,8 +92,7 @@ Extrema extrema(const Simulation& s) {
   return {least_d, most_d, least_J, most_J, speed, strain};
 }
 
-double energy_closure(Simulation& s) {
-  const Energies e = energies(s);
+double energy_closure(const Simulation& s, const Energies& e) {
   const Ledger& l = s.ledger;
   const double residual = std::abs(e.kinetic + e.strain + l.dissipated - l.external_work - l.angular_momentum_work - l.initial_energy), scale = energy_scale(s);
   return scale > 0 ? residual / scale : 0;

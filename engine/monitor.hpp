@@ -49,7 +49,7 @@ std::optional<std::string> geometry_warning(const Simulation& s);
 
 /// |kinetic + strain + dissipated - external_work - angular_momentum_work - initial| over the larger of the initial energy and the largest
 /// external work so far (method, section 11); needs monitor.energy.
-double energy_closure(Simulation& s);
+double energy_closure(const Simulation& s, const Energies& e);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
 double linear_momentum_drift(Simulation& s);     // NaN where it is not known (initial.field = "manufactured")

@@ -72,7 +72,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   }
   if (has_current_areas(s.scene->physics.description)) s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
   if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
-  if (functions.corrects_stress) {
+  if (functions.corrects_stress) {  // what the edges read and what the stress overwrites change places
     std::swap(u.PH[0], u.PH[1]);
     rows.PH = u.PH[u.now].data(), rows.PH_new = u.PH[1 - u.now].data();
   }

@@ -45,7 +45,7 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
   const Energies e = energies(s);
   out.energy.initial = s.ledger.initial_energy, out.energy.kinetic = e.kinetic, out.energy.strain = e.strain, out.energy.lost_at_start = s.ledger.lost_at_start;
   if (scene.monitor.energy)
-    out.energy.external_work = s.ledger.external_work, out.energy.dissipated = s.ledger.dissipated, out.energy.closure = energy_closure(s);
+    out.energy.external_work = s.ledger.external_work, out.energy.dissipated = s.ledger.dissipated, out.energy.closure = energy_closure(s, e);
   if (scene.monitor.energy && p.keep_angular_momentum) out.energy.angular_momentum_work = s.ledger.angular_momentum_work;
   out.keep_angular_momentum = p.keep_angular_momentum;
   out.mass = s.ledger.mass, out.volume = s.ledger.volume;

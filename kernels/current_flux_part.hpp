@@ -24,7 +24,7 @@ NANSON_INLINE void cell_motion(const Part& part, const CornerArrays& corners, co
 /// `cell_motion`, also where the three corners of a face have area vectors of their own (pseudo_updated).
 NANSON_INLINE void current_corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, double* buffer) {
   const auto traction = [&](std::int32_t n, std::int32_t g) {
-    const double* sigma = rows.PH + row::PH * static_cast<std::ptrdiff_t>(n) + 4;
+    const double* sigma = rows.PH + row::PH * n + 4;
     const Vec4 t = fma(load4(sigma + 8), broadcast4(corners.c_gamma[1][g]), load4(sigma) * broadcast4(corners.c_gamma[0][g]));
     return fma(load4(sigma + 16), broadcast4(corners.c_gamma[2][g]), t);
   };

@@ -25,7 +25,7 @@ inline void positions_part(const Part& part, const double* U, const CurrentAreas
 /// c = sum over the tets at ab of (c - m) x (d - m) / 12, m = (a + b)/2; seen from b every term is bitwise the opposite, so without fma. At a corner
 /// (x_b - x_a) x (x_c - x_a) / 6.
 inline void dual_areas_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const CurrentAreas& areas) {
-  const auto x = [&](std::int32_t n) { return load4(areas.x + row::x * static_cast<std::ptrdiff_t>(n)); };
+  const auto x = [&](std::int32_t n) { return load4(areas.x + row::x * n); };
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
     const Vec4 m = (x(edges.a[e]) + x(edges.b[e])) * 0.5;
     Vec4 sum{};
@@ -49,7 +49,7 @@ inline void area_map_part(const Part& part, const EdgeArrays& edges, const Corne
   static_assert(row::x == row::W && row::G == row::H);
   for (int n = part.node_begin; n < part.node_end; ++n) {
     gradient_of_W(n, edges, corners, lists, of_x);
-    double* H = areas.map + row::H * static_cast<std::ptrdiff_t>(n);
+    double* H = areas.map + row::H * n;
     const Vec4 f0 = load4(H), f1 = load4(H + 4), f2 = load4(H + 8);
     store4(H, cross(f1, f2)), store4(H + 4, cross(f2, f0)), store4(H + 8, cross(f0, f1));
   }
@@ -57,7 +57,7 @@ inline void area_map_part(const Part& part, const EdgeArrays& edges, const Corne
 
 /// c = (H_x,a + H_x,b)/2 C on edges, H_x,a C at corners.
 inline void mapped_areas_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const CurrentAreas& areas) {
-  const auto H = [&](std::int32_t n, int I) { return load4(areas.map + row::H * static_cast<std::ptrdiff_t>(n) + 4 * I); };
+  const auto H = [&](std::int32_t n, int I) { return load4(areas.map + row::H * n + 4 * I); };
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
     const std::int32_t a = edges.a[e], b = edges.b[e], next = edges.b[e + 60];
     __builtin_prefetch(areas.map + row::H * next), __builtin_prefetch(areas.map + row::H * next + 8);

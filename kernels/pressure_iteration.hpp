@@ -17,11 +17,11 @@ inline void pressure_force_part(const Part& part, const EdgeArrays& edges, const
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
-      in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e)), broadcast4(rows.d[lists.in_nodes[i]]), in);
+      in = fma(load4(rows.E + row::E * e), broadcast4(rows.d[lists.in_nodes[i]]), in);
     }
     f = f - in;
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) {
-      const double* B = rows.B + row::B * static_cast<std::ptrdiff_t>(g);
+      const double* B = rows.B + row::B * g;
       f = f - fma(load4(B), broadcast4(2.0 * rows.d[n]), fma(load4(B + 4), broadcast4(rows.d[corners.b[g]]), load4(B + 8) * broadcast4(rows.d[corners.c[g]])));
     }
     if (rows.held[n] >= 0) {
@@ -54,12 +54,12 @@ inline Three pressure_operator_part(const Part& part, const EdgeArrays& edges, c
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
-      in = fma(load4(rows.E + row::E * static_cast<std::ptrdiff_t>(e) + 4), load4(rows.V + row::V * lists.in_nodes[i]), in);
+      in = fma(load4(rows.E + row::E * e + 4), load4(rows.V + row::V * lists.in_nodes[i]), in);
     }
     D = D - in;
     const Vec4 Va = load4(rows.V + row::V * n);
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g)
-      D = fma(load4(rows.B + row::B * static_cast<std::ptrdiff_t>(g)), (Va + Va) + (load4(rows.V + row::V * corners.b[g]) + load4(rows.V + row::V * corners.c[g])), D);
+      D = fma(load4(rows.B + row::B * g), (Va + Va) + (load4(rows.V + row::V * corners.b[g]) + load4(rows.V + row::V * corners.c[g])), D);
     const double volume = 1.0 / rows.X[row::X * n + 3], d = rows.d[n];
     const double Kd = volume * k.inverse_kappa / k.dt * d - Va[3] - ((D[0] + D[1]) + D[2]);
     rows.Kd[n] = Kd;
@@ -102,7 +102,7 @@ inline void pressure_direction_part(const Part& part, const ProjectionRows& rows
 inline double pseudo_step_part(const Part& part, const EdgeArrays& edges, const ProjectionRows& rows, double scale) {
   double least = 1e300;
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
-    const double* E = rows.E + row::E * static_cast<std::ptrdiff_t>(e);
+    const double* E = rows.E + row::E * e;
     const Vec4 D = load4(rows.X + row::X * edges.b[e]) - load4(rows.X + row::X * edges.a[e]), ha = load4(E), hb = load4(E + 4);
     const double largest2 = 4 * larger(dot3(ha, ha)[0], dot3(hb, hb)[0]);
     least = smaller(root(dot3(D, D)[0]) * edge_size(edges, e) / root(largest2), least);

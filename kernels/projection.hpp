@@ -6,9 +6,9 @@
 namespace nanson {
 
 namespace row {
-inline constexpr int E = 8;     // an edge: {H_a C/2, -w | H_b C/2, w}, H of the stage's start, w [m^4 s/kg] of the stabilisation
-inline constexpr int B = 12;    // a corner: {H_a C/8, 0 | H_b C/8, 0 | H_c C/8, 0}
-inline constexpr int V = 4;     // {velocity that a pressure gives [m/s], its stabilisation S(d) [m^3/s]}
+inline constexpr std::ptrdiff_t E = 8;     // an edge: {H_a C/2, -w | H_b C/2, w}, H of the stage's start, w [m^4 s/kg] of the stabilisation
+inline constexpr std::ptrdiff_t B = 12;    // a corner: {H_a C/8, 0 | H_b C/8, 0 | H_c C/8, 0}
+inline constexpr std::ptrdiff_t V = 4;     // {velocity that a pressure gives [m/s], its stabilisation S(d) [m^3/s]}
 }  // namespace row
 
 /// Rows of the pressure's projection; those of the stage's start are only read.
@@ -68,11 +68,11 @@ inline void projection_edges_part(const Part& part, const EdgeArrays& edges, con
       const Vec4 c = ha + hb;
       const double w = k.beta_over_rho_cs * dot3(c, c)[0] / edge_size(edges, e);
       ha[3] = -w, hb[3] = w;
-      store8(rows.E + row::E * static_cast<std::ptrdiff_t>(e), concat(ha, hb));
+      store8(rows.E + row::E * e, concat(ha, hb));
     }
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {
       const double C0 = 0.125 * corners.C[0][g], C1 = 0.125 * corners.C[1][g], C2 = 0.125 * corners.C[2][g];
-      double* B = rows.B + row::B * static_cast<std::ptrdiff_t>(g);
+      double* B = rows.B + row::B * g;
       store4(B, area(PHa, C0, C1, C2)), store4(B + 4, area(rows.PH + row::PH * corners.b[g], C0, C1, C2));
       store4(B + 8, area(rows.PH + row::PH * corners.c[g], C0, C1, C2));
     }
@@ -118,7 +118,7 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
       add(edges.b[e], E[7], E);
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
-      const double* E = rows.E + row::E * static_cast<std::ptrdiff_t>(lists.in_edges[i]);
+      const double* E = rows.E + row::E * lists.in_edges[i];
       add(lists.in_nodes[i], E[7], E + 4);
     }
     diagonal += weights + volume * k.inverse_kappa / k.dt;
@@ -145,13 +145,13 @@ inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges,
       prefetch_row<row::U, 60>(Outward(), rows.U, edges, e), __builtin_prefetch(rows.E + row::E * (e + 64));
       const Vec4 d = load4(rows.U + row::U * edges.b[e]) - Ua;
       add(d, edges.C[0][e], edges.C[1][e], edges.C[2][e]);
-      S = fma(rows.E[row::E * static_cast<std::ptrdiff_t>(e) + 7], d[3], S);
+      S = fma(rows.E[row::E * e + 7], d[3], S);
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
       const std::int32_t e = lists.in_edges[i];
       const Vec4 d = load4(rows.U + row::U * lists.in_nodes[i]) - Ua;
       add(d, -edges.C[0][e], -edges.C[1][e], -edges.C[2][e]);
-      S = fma(rows.E[row::E * static_cast<std::ptrdiff_t>(e) + 7], d[3], S);
+      S = fma(rows.E[row::E * e + 7], d[3], S);
     }
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) {
       const Vec4 d = ((load4(rows.U + row::U * corners.b[g]) - Ua) + (load4(rows.U + row::U * corners.c[g]) - Ua)) * 0.25;

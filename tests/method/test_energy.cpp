@@ -48,7 +48,7 @@ Audit audit(Scene scene, double noise = 0) {
   Observer observer;
   observer.on_step = [&](const Simulation&) {
     const Energies e = energies(s);
-    a.worst_closure = std::max(a.worst_closure, energy_closure(s));
+    a.worst_closure = std::max(a.worst_closure, energy_closure(s, energies(s)));
     a.worst_growth = std::max(a.worst_growth, (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy - 1);
     a.least_dissipation = std::min(a.least_dissipation, s.ledger.dissipated - dissipated);
     dissipated = s.ledger.dissipated;
@@ -56,7 +56,7 @@ Audit audit(Scene scene, double noise = 0) {
   std::string reason;
   a.status = run(s, observer, reason);
   const Energies e = energies(s);
-  a.closure = energy_closure(s), a.final_energy = (e.kinetic + e.strain) / s.ledger.initial_energy, a.external_work = s.ledger.external_work;
+  a.closure = energy_closure(s, e), a.final_energy = (e.kinetic + e.strain) / s.ledger.initial_energy, a.external_work = s.ledger.external_work;
   return a;
 }
 
