@@ -73,7 +73,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
   around(
       n, edges, corners, lists,
       [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::W, 200>(sense, rows.W, edges, e), prefetch_row<row::PH, 40, 3>(sense, rows.PH, edges, e);
+        prefetch_row<row::W, 60>(sense, rows.W, edges, e), prefetch_row<row::PH, 60, 3>(sense, rows.PH, edges, e);
         const double* Pb = rows.PH + row::PH * b;
         const Vec8 C[3] = {broadcast8(edges.C[0][e]), broadcast8(edges.C[1][e]), broadcast8(edges.C[2][e])};
         const Vec4 d0 = P[0] - load4(Pb), d1 = P[1] - load4(Pb + 8), d2 = P[2] - load4(Pb + 16);
