@@ -21,23 +21,25 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
-    Vec4 g0{}, g1{}, g2{};
+    Vec8 g[3] = {concat(f, Vec4{})};  // {force | column 0 of dG}, {unused | column 1}, {unused | column 2}
     const auto add = [&](auto sense, std::ptrdiff_t e) {
       const double* r = buffer + width * (e - part.edge_begin);
-      f = sense > 0 ? f + load4(r) : f - load4(r);
       if constexpr (corrected) {
-        const Vec4 q = load4(r + 4);
-        g0 = add_product(sense, q, broadcast4(edges.C[0][e]), g0), g1 = add_product(sense, q, broadcast4(edges.C[1][e]), g1), g2 = add_product(sense, q, broadcast4(edges.C[2][e]), g2);
+        const Vec8 flux_q = load8(r);
+        g[0] = add_product(sense, flux_q, concat(broadcast4(1.0), broadcast4(edges.C[0][e])), g[0]);
+        for (int I = 1; I < 3; ++I) g[I] = add_product(sense, flux_q, broadcast8(edges.C[I][e]), g[I]);
+      } else {
+        f = sense > 0 ? f + load4(r) : f - load4(r);
       }
     };
     for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) add(Outward(), e);
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) add(Inward(), lists.in_edges[i]);
-    for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) f = f + load4(scratch.corner + 4 * (g - part.corner_begin));
+    if constexpr (corrected) f = low(g[0]);
+    for (std::int32_t i = lists.corner[n]; i < lists.corner[n + 1]; ++i) f = f + load4(scratch.corner + 4 * (i - part.corner_begin));
     store4(scratch.force + 4 * (n - part.node_begin), f);
     if constexpr (corrected) {
       double* dG = scratch.dG + 12 * (n - part.node_begin);
-      const Vec4 inverse = broadcast4(inverse_volume);
-      store4(dG, g0 * inverse), store4(dG + 4, g1 * inverse), store4(dG + 8, g2 * inverse);
+      for (int I = 0; I < 3; ++I) store4(dG + 4 * I, high(g[I]) * inverse_volume);
     }
   }
 }

@@ -123,7 +123,9 @@ NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const
     double* flux = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
     gather_edges<reconstruction, correction, audits, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
     for (int at = 0; at < count; at += 8) {
-      prefetch_U(edges.a[begin + at] + nodes_ahead, rows, k.takes_lagged);
+      const std::ptrdiff_t n = edges.a[begin + at] + nodes_ahead;
+      prefetch_U(n, rows, k.takes_lagged);
+      if constexpr (correction == EdgeCorrection::finds_full) __builtin_prefetch(rows.dP + row::dP * n), __builtin_prefetch(rows.dP + row::dP * n + 8);
       const double* q = nullptr;
       if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at;
       const Vec8 size = edge_sizes(edges, begin + at);

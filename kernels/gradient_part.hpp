@@ -28,8 +28,10 @@ NANSON_INLINE void prefetch_edges(int n, const EdgeArrays& edges, const NodeList
 /// Asks for the row at the other end of an out-edge that comes `ahead` edges later; those of in-edges are the part's own.
 template <std::ptrdiff_t width, int ahead, int lines = 1, class Sense>
 NANSON_INLINE void prefetch_row(Sense, const double* rows, const EdgeArrays& edges, std::ptrdiff_t e) {
-  if constexpr (Sense::value > 0)
-    for (int line = 0; line < lines; ++line) __builtin_prefetch(rows + width * edges.b[e + ahead] + 8 * line);
+  if constexpr (Sense::value > 0) {
+    const double* next = rows + width * edges.b[e + ahead];
+    for (int line = 0; line < lines; ++line) __builtin_prefetch(next + 8 * line);
+  }
 }
 
 /// G_a = (1/Omega)[sum_b (W_b - W_a)/2 (x) C + sum_gamma (W_b + W_c - 2 W_a)/8 (x) C_gamma], W = {v, Sigma_J}: eq. (43a) with the (6,1,1)/8 rule (29)
@@ -64,8 +66,8 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
   prefetch_edges(n, edges, lists);
   const double* Pa = rows.PH + row::PH * n;
   const Vec4 Xa = load4(rows.X + row::X * n), Wa = load4(rows.W + row::W * n), P[3] = {load4(Pa), load4(Pa + 8), load4(Pa + 16)};
-  Vec8 g01[3] = {}, g2W[3] = {}, CDD[3] = {};  // CDD[I]: C_I {D_0 D_0, D_0 D_1, D_0 D_2, D_1 D_1, D_1 D_2, D_2 D_2}
-  Vec4 q[3] = {};
+  Vec8 g01[3] = {}, g2W[3] = {}, q01{}, CDD[3] = {};  // CDD[I]: C_I {D_0 D_0, D_0 D_1, D_0 D_2, D_1 D_1, D_1 D_2, D_2 D_2}
+  Vec4 q2{};
   const auto add = [&](auto sense, Vec4 d0, Vec4 d1, Vec4 d2, Vec4 dW, const Vec8(&C)[3]) {
     const Vec8 d01 = concat(d0, d1), d2W = concat(d2, dW);
     for (int K = 0; K < 3; ++K) g01[K] = add_product(sense, d01, C[K], g01[K]), g2W[K] = add_product(sense, d2W, C[K], g2W[K]);
@@ -81,7 +83,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
         if constexpr (corrects) {
           prefetch_row<row::X, 60>(sense, rows.X, edges, e);
           const Vec4 D = Xa - load4(rows.X + row::X * b), y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
-          q[0] = add_product(sense, y, spread<0>(D), q[0]), q[1] = add_product(sense, y, spread<1>(D), q[1]), q[2] = add_product(sense, y, spread<2>(D), q[2]);
+          q01 = add_product(sense, concat(y, y), __builtin_shufflevector(D, D, 0, 0, 0, 0, 1, 1, 1, 1), q01), q2 = add_product(sense, y, spread<2>(D), q2);
           const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
           for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
         }
@@ -101,16 +103,20 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
   }
   if constexpr (!corrects) return;
   constexpr int lane[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  const Vec4 q[3] = {low(q01), high(q01), q2}, scale = broadcast4(0.25 * k.theta * inverse);
+  Vec8 corrected[3];
   for (int L = 0; L < 3; ++L) {
-    Vec4 sum = -q[L];
-    for (int K = 0; K < 3; ++K)
-      for (int I = 0; I < 3; ++I) sum = fma(g[K][I], broadcast4(CDD[I][lane[K][L]]), sum);
-    const Vec4 dP = sum * broadcast4(0.25 * k.theta * inverse);
+    Vec4 sum[3];  // three at once: one chain of nine products would be waited for
+    for (int K = 0; K < 3; ++K) {
+      const auto C = [&](int I) { return broadcast4(CDD[I][lane[K][L]]); };
+      sum[K] = fma(g[K][2], C(2), fma(g[K][1], C(1), g[K][0] * C(0)));
+    }
+    const Vec4 dP = ((sum[0] + sum[1]) + (sum[2] - q[L])) * scale;
     store4(rows.dP + row::dP * n + 4 * L, dP);
-    const Vec8 corrected = concat(P[L] + dP, load4(Pa + 8 * L + 4));
-    double* PH = rows.PH_new + row::PH * n + 8 * L;
-    k.streams ? stream8(PH, corrected) : store8(PH, corrected);
+    corrected[L] = concat(P[L] + dP, load4(Pa + 8 * L + 4));
   }
+  double* PH = rows.PH_new + row::PH * n;
+  for (int L = 0; L < 3; ++L) k.streams ? stream8(PH + 8 * L, corrected[L]) : store8(PH + 8 * L, corrected[L]);
 }
 
 /// Row L of a node: the limiter of its reconstruction (method, section 4).
