@@ -127,7 +127,7 @@ NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const
       prefetch_U(n, rows, k.takes_lagged);
       if constexpr (correction == EdgeCorrection::finds_full) __builtin_prefetch(rows.dP + row::dP * n), __builtin_prefetch(rows.dP + row::dP * n + 8);
       const double* q = nullptr;
-      if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at;
+      if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at, __builtin_prefetch(q + 256);
       const Vec8 size = edge_sizes(edges, begin + at);
       double* of_motion = nullptr;
       if constexpr (areas == Areas::current) {  // twice as many arrays: the processor's own prefetch loses their sequence
