@@ -244,6 +244,8 @@ NANSON_INLINE void finish_streams() {
 }
 
 NANSON_INLINE bool any(Mask8 m) { return (m[0] | m[1] | m[2] | m[3] | m[4] | m[5] | m[6] | m[7]) != 0; }
+NANSON_INLINE bool all(bool b) { return b; }
+NANSON_INLINE bool all(Mask8 m) { return (m[0] & m[1] & m[2] & m[3] & m[4] & m[5] & m[6] & m[7]) != 0; }
 NANSON_INLINE double largest(Vec8 v) {
   double m = v[0];
   for (int i = 1; i < 8; ++i) m = v[i] > m ? v[i] : m;

@@ -1,7 +1,7 @@
 // von Mises hyperelastic-plastic law in principal logarithmic stretches, isotropic hardening, with its return mapping (paper, section 6.7; method, section 5).
 #pragma once
 #include "kernels/materials/material.hpp"
-#include "kernels/symmetric_eigen.hpp"
+#include "kernels/symmetric_functions.hpp"
 
 namespace nanson {
 
@@ -12,20 +12,18 @@ struct PlasticState {
   Real eps_p;                      // [-]
 };
 
-/// Elastic left Cauchy-Green tensor b_e = F C_p^-1 F^T in principal axes, and the stress after the return to the yield surface.
+/// The stress after the return to the yield surface.
 template <class Real>
 struct ReturnMapping {
-  Spectrum<Real> b_e;              // [-] of the trial
-  Real shift[3];                   // [-] added to ln lambda_e by the return: -d_gamma n
-  Real tau[3];                     // [Pa] principal deviatoric Kirchhoff stress
-  Real q;                          // [Pa] sqrt(3/2) |tau'|
+  Symmetric<Real> ln_b_e;          // [-] deviator of ln b_e, b_e = F C_p^-1 F^T; the deviatoric Kirchhoff stress is tau = mu ln_b_e
+  Real q;                          // [Pa] sqrt(3/2) |tau|
   Real d_gamma;                    // [-] growth of eps_p, >= 0
   Real plastic_work;               // [J/m^3] tau_y d eps_p, mean of tau_y before and after: exact along a straight piece of the hardening curve
 };
 
-/// Trial tau' = 2 mu (ln lambda_e - (1/3) sum ln lambda_e), q = sqrt(3/2) |tau'|, f = q - tau_y(eps_p); where f > 0 the d_gamma with q - 3 mu d_gamma = tau_y(eps_p + d_gamma),
-/// ln lambda_e -= d_gamma n, n = (3/2) tau'/q, tau' *= 1 - 3 mu d_gamma/q.
-/// P = tau' F^-T + p H, p = U'(J) = kappa ln J/J, Sigma_J = p. Energy mu |dev ln V_e|^2 + kappa/2 (ln J)^2 [J/m^3].
+/// Trial tau = mu dev ln b_e, b_e = F C_p^-1 F^T, q = sqrt(3/2) |tau|, f = q - tau_y(eps_p); where f > 0 the d_gamma with q - 3 mu d_gamma = tau_y(eps_p + d_gamma),
+/// tau *= 1 - 3 mu d_gamma/q, by d_gamma n, n = (3/2) tau/q, taken off ln V_e. In no axes: these tensors share theirs.
+/// P = tau F^-T + p H, p = U'(J) = kappa ln J/J, Sigma_J = p. Energy mu |dev ln V_e|^2 + kappa/2 (ln J)^2 [J/m^3].
 template <Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
   template <class Real>
@@ -43,12 +41,8 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
   template <class Real>
   NANSON_INLINE static ReturnMapping<Real> return_mapping(const Tensor<Real>& F, const PlasticState<Real>& z, const MaterialConstants& m) {
     ReturnMapping<Real> r;
-    r.b_e = symmetric_eigen(elastic_strain(F, z.C_p_inv));
-    Real e[3];
-    for (int k = 0; k < 3; ++k) e[k] = 0.5 * logarithm(r.b_e.value[k]);
-    const Real mean = (e[0] + e[1] + e[2]) * (1.0 / 3.0);
-    for (int k = 0; k < 3; ++k) r.tau[k] = 2.0 * m.mu * (e[k] - mean);
-    const Real q = root(1.5 * (r.tau[0] * r.tau[0] + r.tau[1] * r.tau[1] + r.tau[2] * r.tau[2]));
+    r.ln_b_e = deviatoric_logarithm(elastic_strain(F, z.C_p_inv));
+    const Real q = m.mu * root(1.5 * square_norm(r.ln_b_e));
     const Hardening& h = m.hardening;
     Real g{}, tau_y{};
     for (int i = 0; i < h.count; ++i) {
@@ -59,7 +53,7 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
     }
     r.d_gamma = choose(g > 0.0, g, Real{});
     const Real per_q = r.d_gamma / (q + 1e-300);
-    for (int k = 0; k < 3; ++k) r.shift[k] = -1.5 * per_q * r.tau[k], r.tau[k] = r.tau[k] * (1.0 - 3.0 * m.mu * per_q);
+    for (Real& ln : r.ln_b_e.a) ln = ln * (1.0 - 3.0 * m.mu * per_q);
     r.q = q - 3.0 * m.mu * r.d_gamma;
     r.plastic_work = 0.5 * r.d_gamma * (tau_y + r.q);
     return r;
@@ -75,11 +69,10 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
     const Real ln_J = logarithm(J), inverse_J = 1.0 / J, inverse_det = 1.0 / s.detF;
     s.Sigma_J = m.kappa * ln_J * inverse_J;
     s.d2U = m.kappa * (1.0 - ln_J) * (inverse_J * inverse_J);
-    const Symmetric<Real> tau = composed(r.tau, r.b_e.axis);
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) {
-        const Real t = fma(tau(i, 0), cof[0][I], fma(tau(i, 1), cof[1][I], tau(i, 2) * cof[2][I]));
-        s.P[i][I] = fma(t, inverse_det, s.Sigma_J * s.H[i][I]);
+        const Real t = fma(r.ln_b_e(i, 0), cof[0][I], fma(r.ln_b_e(i, 1), cof[1][I], r.ln_b_e(i, 2) * cof[2][I]));
+        s.P[i][I] = fma(t, m.mu * inverse_det, s.Sigma_J * s.H[i][I]);
       }
     const Real HH = contract(cof, cof);
     s.H2 = spectral_bounds(contract(F, F), HH, s.detF).H2;
@@ -99,18 +92,15 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
     return H2 * (deviatoric * inverse_j2 + larger(d2U, d2U - d2U));
   }
 
-  /// C_p^-1 = F^-1 b_e F^-T of the returned b_e, with det 1, and eps_p; where nothing flowed the state is left as it is, to the bit.
+  /// C_p^-1 = F^-1 b_e F^-T of the returned b_e, a multiple of exp(ln_b_e), with det 1, and eps_p; where nothing flowed the state is left as it is, to the bit.
   template <class Real>
   NANSON_INLINE static PlasticState<Real> flowed(const Tensor<Real>& F, const PlasticState<Real>& z, const ReturnMapping<Real>& r) {
-    Real b[3];
-    for (int k = 0; k < 3; ++k) b[k] = r.b_e.value[k] * exponential(2.0 * r.shift[k]);
     const Tensor<Real> cof = cofactor(F);
     const Real inverse_det = 1.0 / determinant(F, cof);
-    const Symmetric<Real> b_e = composed(b, r.b_e.axis);
     Tensor<Real> F_inv;
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) F_inv[I][i] = cof[i][I] * inverse_det;
-    const Symmetric<Real> C = elastic_strain(F_inv, b_e);
+    const Symmetric<Real> C = elastic_strain(F_inv, exponential(r.ln_b_e));
     const Tensor<Real> full{{{C(0, 0), C(0, 1), C(0, 2)}, {C(0, 1), C(1, 1), C(1, 2)}, {C(0, 2), C(1, 2), C(2, 2)}}};
     const Real to_det_one = 1.0 / cube_root(determinant(full, cofactor(full)));
     PlasticState<Real> out;
@@ -121,13 +111,8 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
 
   template <class Real>
   NANSON_INLINE static Real energy(const Tensor<Real>& F, std::type_identity_t<Real> evolved_J, const PlasticState<Real>& z, const MaterialConstants& m) {
-    const Spectrum<Real> b = symmetric_eigen(elastic_strain(F, z.C_p_inv));
-    Real e[3], dev2{};
-    for (int k = 0; k < 3; ++k) e[k] = 0.5 * logarithm(b.value[k]);
-    const Real mean = (e[0] + e[1] + e[2]) * (1.0 / 3.0);
-    for (int k = 0; k < 3; ++k) dev2 = dev2 + (e[k] - mean) * (e[k] - mean);
     const Real ln_J = logarithm(formulation == Formulation::pF ? determinant(F, cofactor(F)) : evolved_J);
-    return m.mu * dev2 + 0.5 * m.kappa * (ln_J * ln_J);
+    return 0.25 * m.mu * square_norm(deviatoric_logarithm(elastic_strain(F, z.C_p_inv))) + 0.5 * m.kappa * (ln_J * ln_J);
   }
 };
 
