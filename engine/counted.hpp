@@ -26,7 +26,8 @@ inline bool operator>(Counted a, Counted b) { return Counted::of(0, 1), a.value 
 inline Counted fma(Counted a, Counted b, Counted c) { return Counted::of(fma(a.value, b.value, c.value), 2); }
 inline Counted root(Counted a) { return Counted::of(root(a.value), 1); }
 inline Counted choose(bool condition, Counted a, Counted b) { return condition ? a : b; }
-inline Counted cbrt_guess(Counted a) { return Counted::of(cbrt_guess(a.value), 2); }
+inline Counted fnma(Counted a, Counted b, Counted c) { return Counted::of(fnma(a.value, b.value, c.value), 2); }
+inline Counted inverse_cbrt_guess(Counted a) { return Counted::of(inverse_cbrt_guess(a.value), 2); }
 
 /// Flops of one evaluation of a law.
 template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>

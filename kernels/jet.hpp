@@ -32,9 +32,9 @@ NANSON_INLINE Jet<Real> root(Jet<Real> a) {
   return {r, a.slope / (r + r)};
 }
 template <class Real>
-NANSON_INLINE Jet<Real> cube_root(Jet<Real> a) {
-  const Real t = cube_root(a.value);
-  return {t, a.slope * t / (3.0 * a.value)};
+NANSON_INLINE Jet<Real> inverse_cube_root(Jet<Real> a) {
+  const Real y = inverse_cube_root(a.value);
+  return {y, -a.slope * y / (3.0 * a.value)};
 }
 
 }  // namespace nanson

@@ -20,7 +20,7 @@ struct PolyconvexMaterial {
     s.H = formulation == Formulation::pFHJ ? evolved_H : cof;
     const Real J = formulation == Formulation::pF ? s.detF : evolved_J;
     const Real j = isochoric == Isochoric::J ? J : s.detF;
-    const Real FF = contract(F, F), j_third = 1.0 / cube_root(j), j_inv = j_third * j_third * j_third;
+    const Real FF = contract(F, F), j_third = inverse_cube_root(j), j_inv = j_third * j_third * j_third;
     const Real Sigma_F = 2.0 * m.zeta * (j_third * j_third);
     Real dpsi_dj = -(1.0 / 3.0) * Sigma_F * FF * j_inv;
     for (int k = 0; k < 9; ++k) s.P.a[k / 3][k % 3] = Sigma_F * F.a[k / 3][k % 3];
@@ -41,7 +41,7 @@ struct PolyconvexMaterial {
     const SpectralBounds<Real> norms = spectral_bounds(FF, HH, s.detF);
     s.H2 = norms.H2;
     s.d2U = U::d2U(J, m.kappa);
-    s.rho_c2 = speed_bound(FF, HH, norms, s.detF, isochoric == Isochoric::J ? 1.0 / cube_root(s.detF) : j_third, s.d2U, m);
+    s.rho_c2 = speed_bound(FF, HH, norms, s.detF, isochoric == Isochoric::J ? inverse_cube_root(s.detF) : j_third, s.d2U, m);
     return s;
   }
 
@@ -64,8 +64,8 @@ struct PolyconvexMaterial {
   NANSON_INLINE static Real energy(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const MaterialConstants& m) {
     const Tensor<Real> cof = cofactor(F), H = formulation == Formulation::pFHJ ? evolved_H : cof;
     const Real detF = determinant(F, cof), J = formulation == Formulation::pF ? detF : evolved_J;
-    const Real j = isochoric == Isochoric::J ? J : detF, j_third = cube_root(j);
-    Real iso = m.zeta * contract(F, F) / (j_third * j_third) - 3.0 * m.zeta;
+    const Real j = isochoric == Isochoric::J ? J : detF, j_third = inverse_cube_root(j);
+    Real iso = m.zeta * contract(F, F) * (j_third * j_third) - 3.0 * m.zeta;
     if constexpr (with_xi) {
       const Real HH = contract(H, H);
       iso = iso + (m.xi * HH * root(HH) / (j * j) - 3.0 * root(3.0) * m.xi);
