@@ -66,7 +66,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
   prefetch_edges(n, edges, lists);
   const double* Pa = rows.PH + row::PH * n;
   const Vec4 Xa = load4(rows.X + row::X * n), Wa = load4(rows.W + row::W * n), P[3] = {load4(Pa), load4(Pa + 8), load4(Pa + 16)};
-  Vec8 g01[3] = {}, g2W[3] = {}, q01{}, CDD[3] = {};  // CDD[I]: C_I {D_0 D_0, D_0 D_1, D_0 D_2, D_1 D_1, D_1 D_2, D_2 D_2}
+  Vec8 g01[3] = {}, g2W[3] = {}, q01{}, CDD[3] = {};  // CDD[I]: C_I times the lanes of DD below
   Vec4 q2{};
   const auto add = [&](auto sense, Vec4 d0, Vec4 d1, Vec4 d2, Vec4 dW, const Vec8(&C)[3]) {
     const Vec8 d01 = concat(d0, d1), d2W = concat(d2, dW);
@@ -83,8 +83,9 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
         if constexpr (corrects) {
           prefetch_row<row::X, 60>(sense, rows.X, edges, e);
           const Vec4 D = Xa - load4(rows.X + row::X * b), y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
-          q01 = add_product(sense, concat(y, y), __builtin_shufflevector(D, D, 0, 0, 0, 0, 1, 1, 1, 1), q01), q2 = add_product(sense, y, spread<2>(D), q2);
-          const Vec8 DD = __builtin_shufflevector(D, D, 0, 0, 0, 1, 1, 2, 3, 3) * __builtin_shufflevector(D, D, 0, 1, 2, 1, 2, 2, 3, 3);
+          const Vec8 D01 = __builtin_shufflevector(D, D, 0, 0, 0, 2, 1, 1, 1, 3);  // y has 0 in lane 3: D_2 there serves DD
+          q01 = add_product(sense, concat(y, y), D01, q01), q2 = add_product(sense, y, spread<2>(D), q2);
+          const Vec8 DD = D01 * __builtin_shufflevector(D, D, 0, 1, 2, 2, 0, 1, 2, 3);  // D_K D_L: 00, 01, 02, 22, 10, 11, 12
           for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
         }
       },
@@ -102,7 +103,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
     store4(rows.G + row::G * n + 4 * K, high(b));
   }
   if constexpr (!corrects) return;
-  constexpr int lane[3][3] = {{0, 1, 2}, {1, 3, 4}, {2, 4, 5}};
+  constexpr int lane[3][3] = {{0, 1, 2}, {1, 5, 6}, {2, 6, 3}};
   const Vec4 q[3] = {low(q01), high(q01), q2}, scale = broadcast4(0.25 * k.theta * inverse);
   Vec8 corrected[3];
   for (int L = 0; L < 3; ++L) {
