@@ -57,6 +57,26 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
   store4(G, g0 * half_inverse), store4(G + 4, g1 * half_inverse), store4(G + 8, g2 * half_inverse);
 }
 
+/// dP_a = theta/(4 Omega) [grad P : sum_b C (x) D (x) D - sum_b ((P_a - P_b) C) (x) D], D = X_a - X_b, and the row {P + dP | H} that the edges read. g: grad P as below;
+/// q: columns of the second sum; CDD[I]: C_I times {D_0 D_0, D_0 D_1, D_0 D_2, D_2 D_2 | D_1 D_0, D_1 D_1, D_1 D_2, unused}.
+NANSON_INLINE void correct_stress(int n, const Rows& rows, const Coefficients& k, const Vec4 (&P)[3], const Vec4 (&g)[3][3], const Vec4 (&q)[3], const Vec8 (&CDD)[3]) {
+  constexpr int lane[3][3] = {{0, 1, 2}, {1, 5, 6}, {2, 6, 3}};
+  const Vec4 scale = broadcast4(0.25 * k.theta * rows.X[row::X * n + 3]);
+  Vec8 corrected[3];
+  for (int L = 0; L < 3; ++L) {
+    Vec4 sum[3];  // three at once: one chain of nine products would be waited for
+    for (int K = 0; K < 3; ++K) {
+      const auto C = [&](int I) { return broadcast4(CDD[I][lane[K][L]]); };
+      sum[K] = fma(g[K][2], C(2), fma(g[K][1], C(1), g[K][0] * C(0)));
+    }
+    const Vec4 dP = ((sum[0] + sum[1]) + (sum[2] - q[L])) * scale;
+    store4(rows.dP + row::dP * n + 4 * L, dP);
+    corrected[L] = concat(P[L] + dP, load4(rows.PH + row::PH * n + 8 * L + 4));
+  }
+  double* PH = rows.PH_new + row::PH * n;
+  for (int L = 0; L < 3; ++L) k.streams ? stream8(PH + 8 * L, corrected[L]) : store8(PH + 8 * L, corrected[L]);
+}
+
 /// Both gradients, G as gradient_of_W and dP_iI/dX_K [Pa/m], K-major as in row::GP; `corrects`: also what the full flux correction adds to the nodal stress,
 /// dP_a = theta/(4 Omega) sum_b [(P_a - P_b + D . grad P_a) C] (x) D [Pa] (method, section 14). One visit of the neighbours: sum_b C_I D_K D_L is taken
 /// beside the differences and meets the gradient of P when that is known. {P + dP | H} goes into the rows that the next stress overwrites: the edges read it there.
@@ -66,7 +86,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
   prefetch_edges(n, edges, lists);
   const double* Pa = rows.PH + row::PH * n;
   const Vec4 Xa = load4(rows.X + row::X * n), Wa = load4(rows.W + row::W * n), P[3] = {load4(Pa), load4(Pa + 8), load4(Pa + 16)};
-  Vec8 g01[3] = {}, g2W[3] = {}, q01{}, CDD[3] = {};  // CDD[I]: C_I times the lanes of DD below
+  Vec8 g01[3] = {}, g2W[3] = {}, q01{}, CDD[3] = {};
   Vec4 q2{};
   const auto add = [&](auto sense, Vec4 d0, Vec4 d1, Vec4 d2, Vec4 dW, const Vec8(&C)[3]) {
     const Vec8 d01 = concat(d0, d1), d2W = concat(d2, dW);
@@ -85,7 +105,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
           const Vec4 D = Xa - load4(rows.X + row::X * b), y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
           const Vec8 D01 = __builtin_shufflevector(D, D, 0, 0, 0, 2, 1, 1, 1, 3);  // y has 0 in lane 3: D_2 there serves DD
           q01 = add_product(sense, concat(y, y), D01, q01), q2 = add_product(sense, y, spread<2>(D), q2);
-          const Vec8 DD = D01 * __builtin_shufflevector(D, D, 0, 1, 2, 2, 0, 1, 2, 3);  // D_K D_L: 00, 01, 02, 22, 10, 11, 12
+          const Vec8 DD = D01 * __builtin_shufflevector(D, D, 0, 1, 2, 2, 0, 1, 2, 3);
           for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
         }
       },
@@ -102,22 +122,7 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
     g[K][0] = low(a), g[K][1] = high(a), g[K][2] = low(b);
     store4(rows.G + row::G * n + 4 * K, high(b));
   }
-  if constexpr (!corrects) return;
-  constexpr int lane[3][3] = {{0, 1, 2}, {1, 5, 6}, {2, 6, 3}};
-  const Vec4 q[3] = {low(q01), high(q01), q2}, scale = broadcast4(0.25 * k.theta * inverse);
-  Vec8 corrected[3];
-  for (int L = 0; L < 3; ++L) {
-    Vec4 sum[3];  // three at once: one chain of nine products would be waited for
-    for (int K = 0; K < 3; ++K) {
-      const auto C = [&](int I) { return broadcast4(CDD[I][lane[K][L]]); };
-      sum[K] = fma(g[K][2], C(2), fma(g[K][1], C(1), g[K][0] * C(0)));
-    }
-    const Vec4 dP = ((sum[0] + sum[1]) + (sum[2] - q[L])) * scale;
-    store4(rows.dP + row::dP * n + 4 * L, dP);
-    corrected[L] = concat(P[L] + dP, load4(Pa + 8 * L + 4));
-  }
-  double* PH = rows.PH_new + row::PH * n;
-  for (int L = 0; L < 3; ++L) k.streams ? stream8(PH + 8 * L, corrected[L]) : store8(PH + 8 * L, corrected[L]);
+  if constexpr (corrects) correct_stress(n, rows, k, P, g, {low(q01), high(q01), q2}, CDD);
 }
 
 /// Row L of a node: the limiter of its reconstruction (method, section 4).
