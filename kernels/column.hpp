@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 #if defined(__AVX__)
 #include <immintrin.h>
 #endif
@@ -133,18 +134,39 @@ NANSON_INLINE Real smaller(Real a, Real b) {
   return choose(a < b, a, b);
 }
 
-/// First guess of x^(-1/3) for normal x > 0, within 3.5 %: minus a third of the exponent, by the high word; the constant is the best one.
+/// What a comparison of numbers gives.
+template <class Real>
+using Comparison = std::conditional_t<std::is_same_v<Real, Vec8>, Mask8, bool>;
+
+/// A number of the type, without an operation.
+template <class Real>
+NANSON_INLINE Real constant(double x) {
+  if constexpr (std::is_same_v<Real, Vec8>) return broadcast8(x);
+  else return Real(x);
+}
+
+/// c[0] + c[1] x + c[2] x^2 + ...
+template <class Real, std::size_t count>
+NANSON_INLINE Real polynomial(Real x, const double (&c)[count]) {
+  Real sum = constant<Real>(c[count - 1]);
+  for (std::size_t i = count - 1; i-- > 0;) sum = fma(sum, x, constant<Real>(c[i]));
+  return sum;
+}
+
+inline constexpr std::int32_t inverse_cbrt_word = 0x553ef0c0;  // the best one
+
+/// First guess of x^(-1/3) for normal x > 0, within 3.5 %: minus a third of the exponent, by the high word.
 NANSON_INLINE double inverse_cbrt_guess(double x) {
   const auto high_word = static_cast<std::int32_t>(std::bit_cast<std::uint64_t>(x) >> 32);
   const auto third = static_cast<std::int32_t>(static_cast<double>(high_word) * (1.0 / 3.0));
-  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::uint32_t>(0x553ef0c0 - third)) << 32);
+  return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::uint32_t>(inverse_cbrt_word - third)) << 32);
 }
 NANSON_INLINE Vec8 inverse_cbrt_guess(Vec8 x) {
   typedef std::int32_t Int8 __attribute__((vector_size(32)));
   const Mask8 bits = std::bit_cast<Mask8>(x);
   const Int8 high_word = __builtin_convertvector(bits >> 32, Int8);
   const Int8 third = __builtin_convertvector(__builtin_convertvector(high_word, Vec8) * (1.0 / 3.0), Int8);
-  return std::bit_cast<Vec8>(__builtin_convertvector(0x553ef0c0 - third, Mask8) << 32);
+  return std::bit_cast<Vec8>(__builtin_convertvector(inverse_cbrt_word - third, Mask8) << 32);
 }
 
 /// x^(-1/3) for x > 0, about 1 ulp, without a quotient; NaN where x is not > 0, which callers report as a breakdown. Two steps with e = 1 - x y^3 of
@@ -153,8 +175,8 @@ template <class Real>
 NANSON_INLINE Real inverse_cube_root(Real x) {
   Real y = inverse_cbrt_guess(x);
   for (int k = 0; k < 2; ++k) {
-    const Real e = fnma(x * y, y * y, Real{} + 1.0);
-    y = fma(y * e, fma(e, fma(e, Real{} + 14.0 / 81, Real{} + 2.0 / 9), Real{} + 1.0 / 3), y);
+    const Real e = fnma(x * y, y * y, constant<Real>(1.0));
+    y = fma(y * e, polynomial(e, {1.0 / 3, 2.0 / 9, 14.0 / 81}), y);
   }
   return choose(x > 0.0, y, x - x + __builtin_nan(""));
 }
@@ -163,14 +185,6 @@ NANSON_INLINE std::uint64_t bits_of(double x) { return std::bit_cast<std::uint64
 NANSON_INLINE Bits8 bits_of(Vec8 x) { return std::bit_cast<Bits8>(x); }
 NANSON_INLINE double real_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 NANSON_INLINE Vec8 real_of(Bits8 bits) { return std::bit_cast<Vec8>(bits); }
-
-/// c[0] + c[1] x + c[2] x^2 + ...
-template <class Real, std::size_t count>
-NANSON_INLINE Real polynomial(Real x, const double (&c)[count]) {
-  Real sum = Real{} + c[count - 1];
-  for (std::size_t i = count - 1; i-- > 0;) sum = fma(sum, x, Real{} + c[i]);
-  return sum;
-}
 
 inline constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;  // k ln2_high is exact for the exponents of a double
 

@@ -1,7 +1,5 @@
 // A value and its derivative along one direction: the material laws run on it as they stand, so that the divergence of a stress is exact.
 #pragma once
-#include <type_traits>
-
 #include "kernels/column.hpp"
 
 namespace nanson {
@@ -20,7 +18,7 @@ struct Jet {
     const Real q = a.value / b.value;
     return {q, (a.slope - q * b.slope) / b.value};
   }
-  NANSON_INLINE friend auto operator>(Jet a, Jet b) { return static_cast<std::conditional_t<std::is_same_v<Real, double>, bool, Mask8>>(a.value > b.value); }
+  NANSON_INLINE friend auto operator>(Jet a, Jet b) { return static_cast<Comparison<Real>>(a.value > b.value); }
   NANSON_INLINE friend Jet fma(Jet a, Jet b, Jet c) { return a * b + c; }
 };
 

@@ -1,8 +1,6 @@
 // Logarithm and exponential of a symmetric tensor: near a multiple of the identity by series of products, elsewhere by the spectrum. No branch between eight nodes
 // as lanes but for whether any is far.
 #pragma once
-#include <type_traits>
-
 #include "kernels/symmetric_eigen.hpp"
 
 namespace nanson {
@@ -24,10 +22,21 @@ NANSON_INLINE Real square_norm(const Symmetric<Real>& A) {
 }
 
 template <class Real>
-NANSON_INLINE Symmetric<Real> inverse(const Symmetric<Real>& A) {
+NANSON_INLINE Symmetric<Real> cofactor(const Symmetric<Real>& A) {
   const auto minor = [&](int i, int j, int k, int l) { return A(i, k) * A(j, l) - A(i, l) * A(j, k); };
-  Symmetric<Real> C{{minor(1, 2, 1, 2), minor(0, 2, 0, 2), minor(0, 1, 0, 1), minor(1, 2, 2, 0), minor(2, 0, 0, 1), minor(0, 1, 1, 2)}};
-  const Real inverse_det = 1.0 / fma(A(0, 0), C(0, 0), fma(A(0, 1), C(0, 1), A(0, 2) * C(0, 2)));
+  return {{minor(1, 2, 1, 2), minor(0, 2, 0, 2), minor(0, 1, 0, 1), minor(1, 2, 2, 0), minor(2, 0, 0, 1), minor(0, 1, 1, 2)}};
+}
+
+/// Determinant from a tensor and its cofactor.
+template <class Real>
+NANSON_INLINE Real determinant(const Symmetric<Real>& A, const Symmetric<Real>& cof) {
+  return fma(A(0, 0), cof(0, 0), fma(A(0, 1), cof(0, 1), A(0, 2) * cof(0, 2)));
+}
+
+template <class Real>
+NANSON_INLINE Symmetric<Real> inverse(const Symmetric<Real>& A) {
+  Symmetric<Real> C = cofactor(A);
+  const Real inverse_det = 1.0 / determinant(A, C);
   for (Real& c : C.a) c = c * inverse_det;
   return C;
 }
@@ -35,9 +44,8 @@ NANSON_INLINE Symmetric<Real> inverse(const Symmetric<Real>& A) {
 /// c[0] I + c[1] A + c[2] A^2 + ...
 template <class Real, std::size_t count>
 NANSON_INLINE Symmetric<Real> polynomial(const Symmetric<Real>& A, const double (&c)[count]) {
-  Symmetric<Real> sum;
-  for (Real& s : sum.a) s = Real{};
-  for (int k = 0; k < 3; ++k) sum.a[k] = Real{} + c[count - 1];
+  Symmetric<Real> sum{};
+  for (int k = 0; k < 3; ++k) sum.a[k] = constant<Real>(c[count - 1]);
   for (std::size_t i = count - 1; i-- > 0;) {
     sum = commuting_product(sum, A);
     for (int k = 0; k < 3; ++k) sum.a[k] = sum.a[k] + c[i];
@@ -61,12 +69,8 @@ template <class Real, class F>
   return composed(S.value, S.axis);
 }
 
-/// What a comparison of numbers gives.
 template <class Real>
-using Condition = std::conditional_t<sizeof(Real) == sizeof(double), bool, Mask8>;
-
-template <class Real>
-NANSON_INLINE Symmetric<Real> choose(Condition<Real> condition, const Symmetric<Real>& A, const Symmetric<Real>& B) {
+NANSON_INLINE Symmetric<Real> choose(Comparison<Real> condition, const Symmetric<Real>& A, const Symmetric<Real>& B) {
   Symmetric<Real> C;
   for (int k = 0; k < 6; ++k) C.a[k] = choose(condition, A.a[k], B.a[k]);
   return C;
@@ -81,7 +85,7 @@ NANSON_INLINE Symmetric<Real> deviatoric_logarithm(const Symmetric<Real>& A) {
   for (int k = 0; k < 6; ++k) X.a[k] = (k < 3 ? A.a[k] - m : A.a[k]) * inverse_m, M.a[k] = k < 3 ? X.a[k] + 2.0 : X.a[k];
   const Symmetric<Real> Y = commuting_product(X, inverse(M));
   Symmetric<Real> ln = commuting_product(Y, polynomial(commuting_product(Y, Y), {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17}));
-  const Condition<Real> near = (square_norm(Y) <= 0.15 * 0.15) & (m > 0.0);
+  const Comparison<Real> near = (square_norm(Y) <= 0.15 * 0.15) & (m > 0.0);
   if (!all(near)) ln = choose(near, ln, by_spectrum(A, [](Real x) { return logarithm(x); }));
   return deviator(ln);
 }
@@ -90,7 +94,7 @@ NANSON_INLINE Symmetric<Real> deviatoric_logarithm(const Symmetric<Real>& A) {
 template <class Real>
 NANSON_INLINE Symmetric<Real> exponential(const Symmetric<Real>& A) {
   const Symmetric<Real> e = polynomial(A, {1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800});
-  const Condition<Real> near = square_norm(A) <= 0.25 * 0.25;
+  const Comparison<Real> near = square_norm(A) <= 0.25 * 0.25;
   if (all(near)) return e;
   return choose(near, e, by_spectrum(A, [](Real x) { return exponential(x); }));
 }

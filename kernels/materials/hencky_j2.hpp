@@ -101,8 +101,7 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) F_inv[I][i] = cof[i][I] * inverse_det;
     const Symmetric<Real> C = elastic_strain(F_inv, exponential(r.ln_b_e));
-    const Tensor<Real> full{{{C(0, 0), C(0, 1), C(0, 2)}, {C(0, 1), C(1, 1), C(1, 2)}, {C(0, 2), C(1, 2), C(2, 2)}}};
-    const Real to_det_one = inverse_cube_root(determinant(full, cofactor(full)));
+    const Real to_det_one = inverse_cube_root(determinant(C, cofactor(C)));
     PlasticState<Real> out;
     for (int k = 0; k < 6; ++k) out.C_p_inv.a[k] = choose(r.d_gamma > 0.0, C.a[k] * to_det_one, z.C_p_inv.a[k]);
     out.eps_p = z.eps_p + r.d_gamma;

@@ -48,7 +48,7 @@ Audit audit(Scene scene, double noise = 0) {
   Observer observer;
   observer.on_step = [&](const Simulation&) {
     const Energies e = energies(s);
-    a.worst_closure = std::max(a.worst_closure, energy_closure(s, energies(s)));
+    a.worst_closure = std::max(a.worst_closure, energy_closure(s, e));
     a.worst_growth = std::max(a.worst_growth, (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy - 1);
     a.least_dissipation = std::min(a.least_dissipation, s.ledger.dissipated - dissipated);
     dissipated = s.ledger.dissipated;
