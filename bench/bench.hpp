@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "engine/work.hpp"
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 
 namespace nanson {
 

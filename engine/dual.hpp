@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 
 namespace nanson {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 #include "kernels/materials/material.hpp"
 
 namespace nanson {

@@ -2,7 +2,7 @@
 #pragma once
 #include <vector>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 #include "engine/order.hpp"
 #include "engine/registry.hpp"
 #include "kernels/part.hpp"

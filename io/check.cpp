@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/mesh_quality.hpp"
+#include "engine/mesh/mesh_quality.hpp"
 #include "engine/monitor.hpp"
 #include "io/progress.hpp"
 

@@ -1,6 +1,6 @@
 // `nanson check`: what a run would be, without running it; writes nothing.
 #pragma once
-#include "io/load.hpp"
+#include "io/scene/load.hpp"
 
 namespace nanson {
 

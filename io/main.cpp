@@ -6,9 +6,9 @@
 
 #include "io/check.hpp"
 #include "io/provenance.hpp"
-#include "io/results_folder.hpp"
+#include "io/results/results_folder.hpp"
 #include "io/run.hpp"
-#include "io/run_study.hpp"
+#include "io/study/run_study.hpp"
 
 namespace {
 

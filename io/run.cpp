@@ -10,11 +10,11 @@
 #include "io/peak_memory.hpp"
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
-#include "io/results_folder.hpp"
+#include "io/results/results_folder.hpp"
 #include "io/signals.hpp"
-#include "io/write_fields.hpp"
-#include "io/write_history.hpp"
-#include "io/write_summary.hpp"
+#include "io/results/write_fields.hpp"
+#include "io/results/write_history.hpp"
+#include "io/results/write_summary.hpp"
 
 namespace nanson {
 namespace {

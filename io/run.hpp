@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "io/load.hpp"
+#include "io/scene/load.hpp"
 
 namespace nanson {
 

@@ -8,7 +8,7 @@
 
 #include "engine/monitor.hpp"
 #include "engine/summarise.hpp"
-#include "io/load.hpp"
+#include "io/scene/load.hpp"
 
 namespace nanson {
 

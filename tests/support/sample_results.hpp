@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 
 namespace nanson::test {
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "io/provenance.hpp"
-#include "io/results_folder.hpp"
-#include "io/write_fields.hpp"
-#include "io/write_history.hpp"
-#include "io/write_summary.hpp"
+#include "io/results/results_folder.hpp"
+#include "io/results/write_fields.hpp"
+#include "io/results/write_history.hpp"
+#include "io/results/write_summary.hpp"
 #include "tests/support/sample_results.hpp"
 
 int main(int count, char** arguments) {

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 
 namespace nanson::test {
 

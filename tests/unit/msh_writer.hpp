@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 
 namespace nanson {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "io/read_scene.hpp"
+#include "io/scene/read_scene.hpp"
 
 namespace nanson {
 

@@ -6,7 +6,7 @@
 #include <map>
 #include <set>
 
-#include "engine/mesh.hpp"
+#include "engine/mesh/mesh.hpp"
 
 using namespace nanson;
 

@@ -1,5 +1,5 @@
 // Names that only the mesh can confirm, and the words of messages.
-#include "io/words.hpp"
+#include "io/scene/words.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace nanson {

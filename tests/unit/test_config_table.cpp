@@ -1,5 +1,5 @@
 // The strict table on its own: what a read answers and leaves in the value, and what it remembers about keys.
-#include "io/config_table.hpp"
+#include "io/scene/config_table.hpp"
 
 #include <gtest/gtest.h>
 

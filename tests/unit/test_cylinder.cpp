@@ -4,8 +4,8 @@
 #include <numbers>
 #include <set>
 
-#include "engine/mesh.hpp"
-#include "engine/mesh_quality.hpp"
+#include "engine/mesh/mesh.hpp"
+#include "engine/mesh/mesh_quality.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace nanson {

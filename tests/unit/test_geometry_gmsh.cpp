@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "io/read_mesh.hpp"
+#include "io/mesh/read_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace nanson {

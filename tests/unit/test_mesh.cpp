@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/mesh.hpp"
-#include "engine/mesh_quality.hpp"
+#include "engine/mesh/mesh.hpp"
+#include "engine/mesh/mesh_quality.hpp"
 
 using namespace nanson;
 

@@ -3,7 +3,7 @@
 
 #include <cstdlib>
 
-#include "io/read_mesh.hpp"
+#include "io/mesh/read_mesh.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace nanson {

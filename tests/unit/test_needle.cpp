@@ -2,7 +2,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "engine/mesh_quality.hpp"
+#include "engine/mesh/mesh_quality.hpp"
 #include "tests/unit/scene_text.hpp"
 #include "tests/unit/supported.hpp"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "engine/mesh_quality.hpp"
-#include "io/read_mesh.hpp"
+#include "engine/mesh/mesh_quality.hpp"
+#include "io/mesh/read_mesh.hpp"
 #include "msh_writer.hpp"
 
 using namespace nanson;

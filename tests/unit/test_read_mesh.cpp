@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "io/read_mesh.hpp"
+#include "io/mesh/read_mesh.hpp"
 #include "msh_writer.hpp"
 
 using namespace nanson;

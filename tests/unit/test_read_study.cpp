@@ -2,8 +2,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/read_study.hpp"
-#include "io/study_scenes.hpp"
+#include "io/study/read_study.hpp"
+#include "io/study/study_scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "scene_text.hpp"
 

@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "io/read_csv.hpp"
-#include "io/read_summary.hpp"
-#include "io/write_history.hpp"
-#include "io/write_summary.hpp"
+#include "io/results/read_summary.hpp"
+#include "io/results/write_history.hpp"
+#include "io/results/write_summary.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace nanson {

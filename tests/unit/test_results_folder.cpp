@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "io/results_folder.hpp"
+#include "io/results/results_folder.hpp"
 #include "tests/support/child.hpp"
 #include "tests/support/temporary_folder.hpp"
 

@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/solver.hpp"
-#include "io/read_mesh.hpp"
+#include "io/mesh/read_mesh.hpp"
 #include "tests/unit/msh_writer.hpp"
 #include "tests/unit/scene_text.hpp"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <set>
 
-#include "engine/study.hpp"
+#include "io/study/study.hpp"
 
 namespace nanson {
 namespace {

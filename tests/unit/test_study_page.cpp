@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/read_csv.hpp"
-#include "io/write_study.hpp"
+#include "io/study/write_study.hpp"
 
 namespace nanson {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "engine/verdict.hpp"
+#include "io/study/verdict.hpp"
 
 namespace nanson {
 namespace {

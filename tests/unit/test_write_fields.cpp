@@ -4,7 +4,7 @@
 
 #include <numeric>
 
-#include "io/write_fields.hpp"
+#include "io/results/write_fields.hpp"
 #include "tests/support/child.hpp"
 #include "tests/support/hdf5_reading.hpp"
 #include "tests/support/sample_results.hpp"

@@ -8,7 +8,7 @@
 #include <limits>
 #include <sstream>
 
-#include "io/write_history.hpp"
+#include "io/results/write_history.hpp"
 #include "tests/support/child.hpp"
 #include "tests/support/temporary_folder.hpp"
 

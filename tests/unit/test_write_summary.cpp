@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "io/write_summary.hpp"
+#include "io/results/write_summary.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace nanson {

@@ -1,0 +1,50 @@
+// Fields over time in one file, run.vtkhdf (VTKHDF 2.0, transient), beside it run.xdmf for older readers; every frame is whole on disk before the next.
+//
+// /VTKHDF/{Points, Connectivity, Offsets, Types, CellData/region}   the mesh, once; region has the attribute `names`
+// /VTKHDF/PointData/NAME [frames * nodes, components] float32       all frames one after the other; attribute `unit`
+// /VTKHDF/Steps/...                                                 times and offsets; the attribute NSteps counts the frames that are whole
+// /frames/NNNNNN/NAME [nodes, components]                           one frame, no data of its own; the group has time, step and perhaps breakdown = 1
+#pragma once
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "engine/mesh/mesh.hpp"
+#include "engine/scene.hpp"
+
+namespace nanson {
+
+inline constexpr int most_patience = 200;  // [ms] a frame waits for a reader to let go of the file
+
+class FieldWriter {
+ public:
+  using Attributes = std::vector<std::pair<std::string, std::string>>;
+  /// A field's values in mesh order, the components of a node together; they must live until the next call.
+  using GetField = std::function<std::span<const float>(const FieldName&)>;
+
+  /// Creates run.vtkhdf (one that exists is an error) and run.xdmf in a folder that exists. `attributes` go to "/"; `compress` is a gzip level, 0 for none.
+  FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes, int compress);
+
+  /// Appends a frame; the file is closed again afterwards. Throws std::runtime_error with the reason when it cannot be written: the frames before stay
+  /// readable, and the frame can be tried again.
+  void frame(double t, long step, bool breakdown, const GetField& get);
+
+  std::size_t frames() const { return frames_; }
+
+ private:
+  void append(double t, long step, bool breakdown, const GetField& get);
+
+  std::filesystem::path path_;
+  std::vector<FieldName> fields_;
+  std::size_t nodes_, tets_;
+  int compress_;
+  int patience_ = most_patience;  // [ms] to wait for another program that holds the file
+  std::size_t frames_ = 0;
+  std::string xdmf_frames_;  // the text of the frames so far, so that a frame costs its own text only
+};
+
+}  // namespace nanson
