@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
-#include "engine/work.hpp"
 #include "engine/mesh/mesh.hpp"
+#include "engine/work.hpp"
 
 namespace nanson {
 
-inline constexpr int full_cells = 48;      // cells a side of the cube; results are kept and compared at this size only
-inline constexpr double same = 1e-11;      // largest relative difference to the plain loop
+inline constexpr int full_cells = 48;  // cells a side of the cube; results are kept and compared at this size only
+inline constexpr double same = 1e-11;  // largest relative difference to the plain loop
 
 struct BenchOptions {
   int cells = full_cells;
@@ -40,11 +40,12 @@ Scene column();
 /// One row of the table at the end.
 struct StepRatio {
   std::string scene;
-  double nodes, naive, one, two;                  // [ns per node-step]: processor time of one thread, wall time of two; medians
-  double ratio, ratio_least, ratio_most;          // naive to one thread: median and extremes over the repetitions
-  double speedup;                                 // one thread to two, wall time
-  double in_cache, bytes;                         // one thread on a mesh that stays in its L2 [ns per node-step]; DRAM traffic of the model [bytes per node-step]
-  double barrier;                                 // [s] of a parallel loop over parts that do nothing, two threads
+  double nodes, naive, one, two;          // [ns per node-step]: processor time of one thread, wall time of two; medians
+  double ratio, ratio_least, ratio_most;  // naive to one thread: median and extremes over the repetitions
+  double speedup;                         // one thread to two, wall time
+  double in_cache,
+      bytes;  // one thread on a mesh that stays in its L2 [ns per node-step]; DRAM traffic of the model [bytes per node-step]
+  double barrier;  // [s] of a parallel loop over parts that do nothing, two threads
 };
 std::vector<StepRatio>& step_ratios();
 

@@ -34,7 +34,9 @@ void triad(Arrays& x, int threads) {
   for (std::ptrdiff_t i = 0; i < n; ++i) a[i] = b[i] + 0.5 * c[i];
 }
 
-void update(Arrays& x, int threads) { update_pass(x.a.data(), x.b.data(), static_cast<std::ptrdiff_t>(x.a.size()), threads); }
+void update(Arrays& x, int threads) {
+  update_pass(x.a.data(), x.b.data(), static_cast<std::ptrdiff_t>(x.a.size()), threads);
+}
 
 bool all_near(const Aligned<double>& x, double wanted) {
   for (double v : x)
@@ -78,8 +80,11 @@ void register_bandwidth() {
   for (int threads : {1, 2}) {
     const std::string tail = "/threads:" + std::to_string(threads);
     const auto add = [&](const std::string& name, Kernel kernel, double (*wanted)(double)) {
-      benchmark::RegisterBenchmark(("bandwidth/" + name + tail).c_str(), [=](benchmark::State& state) { run(state, kernel, wanted, threads); })
-          ->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(20);
+      benchmark::RegisterBenchmark(("bandwidth/" + name + tail).c_str(),
+                                   [=](benchmark::State& state) { run(state, kernel, wanted, threads); })
+          ->Unit(benchmark::kMillisecond)
+          ->UseRealTime()
+          ->Iterations(20);
     };
     add("triad", triad, [](double) { return 2.25; });
     add("update", update, [](double passes) { return 4 * (1 - std::exp2(-passes)); });

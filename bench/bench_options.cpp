@@ -1,8 +1,8 @@
 // Options of the whole step beside the {p,F,J} column without them, timed in turn on one thread; results are compared first: current areas with the plain loop, two
 // layers of one material with the column of one.
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
-#include <fmt/format.h>
 
 #include "bench/bench.hpp"
 #include "bench/naive_loop.hpp"
@@ -17,9 +17,12 @@ struct Run {
   Mesh mesh;
   Simulation s;
   explicit Run(const Scene& of) : scene(of), mesh(box_mesh(scene.mesh)), s(make_simulation(scene, mesh, 1)) {}
-  double seconds() {                                // of a step
+  double seconds() {  // of a step
     const double start = thread_seconds();
-    for (int i = 0; i < steps; ++i) s.dt = allowed_step(s), advance(s);
+    for (int i = 0; i < steps; ++i) {
+      s.dt = allowed_step(s);
+      advance(s);
+    }
     return (thread_seconds() - start) / steps;
   }
 };
@@ -55,14 +58,20 @@ double difference_to_one_material(const Run& several) {
   Run one(column()), same_start(several.scene);
   const double dt = 0.5 * allowed_step(one.s);
   for (Run* r : {&one, &same_start})
-    for (int i = 0; i < 3; ++i) r->s.dt = dt, advance(r->s);
+    for (int i = 0; i < 3; ++i) {
+      r->s.dt = dt;
+      advance(r->s);
+    }
   double worst = 0;
   for (std::size_t column = 0; column < 4; ++column) {
     double largest = 0, difference = 0;
     for (std::size_t n = 0; n < one.mesh.X.size(); ++n)
       for (std::size_t k = 4 * column; k < 4 * column + 4; ++k) {
-        const auto at = [&](const Simulation& s) { return s.state.U[0][row::U * static_cast<std::size_t>(s.order.row_of[n]) + k]; };
-        largest = std::max(largest, std::abs(at(one.s))), difference = std::max(difference, std::abs(at(one.s) - at(same_start.s)));
+        const auto at = [&](const Simulation& s) {
+          return s.state.U[0][row::U * static_cast<std::size_t>(s.order.row_of[n]) + k];
+        };
+        largest = std::max(largest, std::abs(at(one.s)));
+        difference = std::max(difference, std::abs(at(one.s) - at(same_start.s)));
       }
     worst = std::max(worst, difference / largest);
   }
@@ -73,19 +82,22 @@ double difference_to_plain_loop(Run& run) {
   NaiveLoop naive = make_naive_loop(run.s);
   for (int i = 0; i < 3; ++i) {
     run.s.dt = allowed_step(run.s);
-    naive_advance(naive, run.s.dt), advance(run.s);
+    naive_advance(naive, run.s.dt);
+    advance(run.s);
   }
   return largest_difference(naive, run.s);
 }
 
 void time_option(benchmark::State& state, const Scene& scene) {
   Run base(column()), option(scene);
-  const double difference = scene.materials.empty() ? difference_to_plain_loop(option) : difference_to_one_material(option);
+  const double difference = scene.materials.empty() ? difference_to_plain_loop(option)
+                                                    : difference_to_one_material(option);
   if (!(difference < same)) return state.SkipWithError(fmt::format("differs by {:.1e}", difference).c_str());
   std::vector<double> seconds, ratios;
   for (int r = 0; r < repetitions; ++r) {
     const double without = base.seconds();
-    seconds.push_back(option.seconds()), ratios.push_back(seconds.back() / without);
+    seconds.push_back(option.seconds());
+    ratios.push_back(seconds.back() / without);
   }
   for (auto _ : state) state.SetIterationTime(median(seconds));
   if (base.s.breakdown || option.s.breakdown) return state.SkipWithError("broke down");
@@ -97,10 +109,15 @@ void time_option(benchmark::State& state, const Scene& scene) {
 }  // namespace
 
 void register_step_options() {
-  for (const auto& [name, scene] : {std::pair("pressure", with(FluxCorrection::pressure)), std::pair("full", with(FluxCorrection::full)), std::pair("energy_audit", with_energy_audit()),
-                                    std::pair("updated", with(Description::updated)), std::pair("pseudo_updated", with(Description::pseudo_updated)), std::pair("several_materials", layers())})
-    benchmark::RegisterBenchmark(fmt::format("option/{}", name).c_str(), [scene = scene](benchmark::State& state) { time_option(state, scene); })
-        ->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1);
+  for (const auto& [name, scene] :
+       {std::pair("pressure", with(FluxCorrection::pressure)), std::pair("full", with(FluxCorrection::full)),
+        std::pair("energy_audit", with_energy_audit()), std::pair("updated", with(Description::updated)),
+        std::pair("pseudo_updated", with(Description::pseudo_updated)), std::pair("several_materials", layers())})
+    benchmark::RegisterBenchmark(fmt::format("option/{}", name).c_str(),
+                                 [scene = scene](benchmark::State& state) { time_option(state, scene); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->Iterations(1);
 }
 
 }  // namespace nanson

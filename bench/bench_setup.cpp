@@ -24,7 +24,8 @@ void time_setup(benchmark::State& state, int cells) {
   }
   for (auto _ : state) state.SetIterationTime(ready - meshed);
   if (s.breakdown) return state.SkipWithError(s.breakdown->text.c_str());
-  state.counters["steps"] = (ready - meshed) / median(steps), state.counters["mesh_steps"] = (meshed - start) / median(steps);
+  state.counters["steps"] = (ready - meshed) / median(steps);
+  state.counters["mesh_steps"] = (meshed - start) / median(steps);
   for (const SweepTime& part : s.setup.sweeps) state.counters[part.sweep] = part.seconds / s.setup.total();
 }
 
@@ -34,8 +35,11 @@ void register_setup() {
   std::vector<int> sizes{options().cells};
   if (options().large) sizes.push_back(2 * options().cells);
   for (const int cells : sizes)
-    benchmark::RegisterBenchmark(fmt::format("setup/nodes:{}", (cells + 1) * (cells + 1) * (cells + 1)).c_str(), [cells](benchmark::State& state) { time_setup(state, cells); })
-        ->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1);
+    benchmark::RegisterBenchmark(fmt::format("setup/nodes:{}", (cells + 1) * (cells + 1) * (cells + 1)).c_str(),
+                                 [cells](benchmark::State& state) { time_setup(state, cells); })
+        ->Unit(benchmark::kMillisecond)
+        ->UseManualTime()
+        ->Iterations(1);
 }
 
 }  // namespace nanson

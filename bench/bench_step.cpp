@@ -6,9 +6,9 @@
 #include <memory>
 
 #include "bench/bench.hpp"
-#include "engine/counted.hpp"
 #include "bench/naive_loop.hpp"
 #include "engine/clock.hpp"
+#include "engine/counted.hpp"
 #include "engine/parts.hpp"
 
 namespace nanson {
@@ -27,26 +27,35 @@ BoundarySpec condition(BoundaryKind kind, std::initializer_list<const char*> fac
 Scene plate() {
   Scene s;
   const int n = std::max(1, options().cells * 26 / full_cells);
-  s.mesh.origin = {-0.005, -0.03, -0.005}, s.mesh.size = {0.01, 0.06, 0.01}, s.mesh.cells = {n, 6 * n, n};
-  s.material.density = 1845, s.material.youngs_modulus = 318.27e9, s.material.poissons_ratio = 0.0539;
+  s.mesh.origin = {-0.005, -0.03, -0.005};
+  s.mesh.size = {0.01, 0.06, 0.01};
+  s.mesh.cells = {n, 6 * n, n};
+  s.material.density = 1845;
+  s.material.youngs_modulus = 318.27e9;
+  s.material.poissons_ratio = 0.0539;
   s.physics.formulation = Formulation::pF;
-  s.initial.field = InitialField::plate_mode, s.initial.amplitude = 4.3369e-5, s.initial.mode_omega = 2.3597e5, s.initial.B = 78.834;
+  s.initial.field = InitialField::plate_mode;
+  s.initial.amplitude = 4.3369e-5;
+  s.initial.mode_omega = 2.3597e5;
+  s.initial.B = 78.834;
   return s;
 }
 
 double flops_of(const Scene& s) {
   const MaterialConstants m = constants_of(s.material);
-  if (s.material.law == Law::linear_elastic) return flops_of_law<Law::linear_elastic, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(m);
-  if (s.physics.formulation == Formulation::pF) return flops_of_law<Law::neo_hookean, Volumetric::quadratic, Isochoric::F, Formulation::pF>(m);
+  if (s.material.law == Law::linear_elastic)
+    return flops_of_law<Law::linear_elastic, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(m);
+  if (s.physics.formulation == Formulation::pF)
+    return flops_of_law<Law::neo_hookean, Volumetric::quadratic, Isochoric::F, Formulation::pF>(m);
   return flops_of_law<Law::neo_hookean, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(m);
 }
 
 /// What the rows of a scene show: medians over the repetitions.
 struct Measured {
   std::string error;
-  double naive = 0, one = 0, two = 0;             // [s] a step
+  double naive = 0, one = 0, two = 0;  // [s] a step
   double nodes = 0;
-  Work work;                                      // of the fused step
+  Work work;  // of the fused step
 };
 
 void fused(Simulation& s, int threads, int steps) {
@@ -79,7 +88,11 @@ double in_cache(Scene scene) {
 double barrier_seconds(Simulation& s) {
   constexpr int count = 2000;
   s.threads = 2;
-  return timed(count, [&] { for (int i = 0; i < count; ++i) for_parts(s, [](int, Scratch) {}); }).first;
+  return timed(count,
+               [&] {
+                 for (int i = 0; i < count; ++i) for_parts(s, [](int, Scratch) {});
+               })
+      .first;
 }
 
 Measured measure(const std::string& name, const Scene& scene) {
@@ -88,7 +101,8 @@ Measured measure(const std::string& name, const Scene& scene) {
   Simulation s = make_simulation(scene, mesh, 2);
   auto naive = std::make_unique<NaiveLoop>(make_naive_loop(s));
   for (int i = 0; i < 4; ++i) {
-    s.dt = allowed_step(s), s.threads = 1 + i % 2;
+    s.dt = allowed_step(s);
+    s.threads = 1 + i % 2;
     naive_advance(*naive, s.dt);
     advance(s);
   }
@@ -96,19 +110,29 @@ Measured measure(const std::string& name, const Scene& scene) {
   if (!(difference < same)) out.error = fmt::format("differs from the plain loop by {:.1e}", difference);
   std::vector<double> naive_s, one_s, two_s, ratio, speedup;
   for (int r = 0; r < repetitions; ++r) {
-    const auto plain = timed(naive_steps, [&] { for (int i = 0; i < naive_steps; ++i) naive_advance(*naive, dt); });
+    const auto plain = timed(naive_steps, [&] {
+      for (int i = 0; i < naive_steps; ++i) naive_advance(*naive, dt);
+    });
     const auto one = timed(fused_steps, [&] { fused(s, 1, fused_steps); });
     const auto two = timed(fused_steps, [&] { fused(s, 2, fused_steps); });
-    naive_s.push_back(plain.second), one_s.push_back(one.second), two_s.push_back(two.first);
-    ratio.push_back(plain.second / one.second), speedup.push_back(one.first / two.first);
+    naive_s.push_back(plain.second);
+    one_s.push_back(one.second);
+    two_s.push_back(two.first);
+    ratio.push_back(plain.second / one.second);
+    speedup.push_back(one.first / two.first);
   }
   if (s.breakdown || naive->report.broken) out.error = "broke down";
-  out.naive = median(naive_s), out.one = median(one_s), out.two = median(two_s), out.nodes = s.order.nodes;
+  out.naive = median(naive_s);
+  out.one = median(one_s);
+  out.two = median(two_s);
+  out.nodes = s.order.nodes;
   out.work = step_work(scene.physics, Sizes(s.order), flops_of(scene), 2);
   const double ns = 1e9 / out.nodes;
   if (out.error.empty())
-    step_ratios().push_back({name, out.nodes, ns * out.naive, ns * out.one, ns * out.two, median(ratio), *std::min_element(ratio.begin(), ratio.end()),
-                             *std::max_element(ratio.begin(), ratio.end()), median(speedup), in_cache(scene), out.work.bytes / out.nodes, barrier_seconds(s)});
+    step_ratios().push_back({name, out.nodes, ns * out.naive, ns * out.one, ns * out.two, median(ratio),
+                             *std::min_element(ratio.begin(), ratio.end()),
+                             *std::max_element(ratio.begin(), ratio.end()), median(speedup), in_cache(scene),
+                             out.work.bytes / out.nodes, barrier_seconds(s)});
   return out;
 }
 
@@ -131,10 +155,16 @@ void show(benchmark::State& state, const Measured& m, double seconds, int thread
 /// Standing wave in a cube, linear elastic, {p,F,J} (paper, 6.1).
 Scene cube(int n) {
   Scene s;
-  s.mesh.size = {1, 1, 1}, s.mesh.cells = {n, n, n};
-  s.material.law = Law::linear_elastic, s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.45;
-  s.initial.field = InitialField::standing_wave, s.initial.amplitude = 5e-4;
-  s.boundary = {condition(BoundaryKind::symmetric, {"xmin", "ymin", "zmin"}), condition(BoundaryKind::skew_symmetric, {"xmax", "ymax", "zmax"})};
+  s.mesh.size = {1, 1, 1};
+  s.mesh.cells = {n, n, n};
+  s.material.law = Law::linear_elastic;
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = 0.45;
+  s.initial.field = InitialField::standing_wave;
+  s.initial.amplitude = 5e-4;
+  s.boundary = {condition(BoundaryKind::symmetric, {"xmin", "ymin", "zmin"}),
+                condition(BoundaryKind::skew_symmetric, {"xmax", "ymax", "zmax"})};
   return s;
 }
 
@@ -142,21 +172,33 @@ Scene cube(int n) {
 Scene column() {
   Scene s;
   const int n = std::max(1, options().cells * 26 / full_cells);
-  s.mesh.origin = {-0.5, -0.5, 0}, s.mesh.size = {1, 1, 6}, s.mesh.cells = {n, n, 6 * n};
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.495;
-  s.initial.field = InitialField::twist, s.initial.twist_omega = 105, s.initial.height = 6;
+  s.mesh.origin = {-0.5, -0.5, 0};
+  s.mesh.size = {1, 1, 6};
+  s.mesh.cells = {n, n, 6 * n};
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = 0.495;
+  s.initial.field = InitialField::twist;
+  s.initial.twist_omega = 105;
+  s.initial.height = 6;
   s.boundary = {condition(BoundaryKind::fixed, {"zmin"})};
   return s;
 }
 
 void register_steps() {
   constexpr Scene (*cube_of_options)() = [] { return cube(options().cells); };
-  for (auto [name, scene] : {std::pair("cube", cube_of_options), std::pair("column", &column), std::pair("plate", &plate)}) {
-    const auto add = [name = std::string(name), scene = scene](const char* what, double Measured::*seconds, int threads) {
-      benchmark::RegisterBenchmark(("step/" + name + what).c_str(), [=](benchmark::State& state) {
-        const Measured& m = measured(name, scene);
-        show(state, m, m.*seconds, threads);
-      })->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1);
+  for (auto [name, scene] :
+       {std::pair("cube", cube_of_options), std::pair("column", &column), std::pair("plate", &plate)}) {
+    const auto add = [name = std::string(name), scene = scene](const char* what, double Measured::*seconds,
+                                                               int threads) {
+      benchmark::RegisterBenchmark(("step/" + name + what).c_str(),
+                                   [=](benchmark::State& state) {
+                                     const Measured& m = measured(name, scene);
+                                     show(state, m, m.*seconds, threads);
+                                   })
+          ->Unit(benchmark::kMillisecond)
+          ->UseManualTime()
+          ->Iterations(1);
     };
     add("/threads:1", &Measured::one, 1);
     add("/threads:2", &Measured::two, 2);

@@ -26,7 +26,7 @@ constexpr auto none = EdgeCorrection::none;
 struct Colours {
   Aligned<std::int32_t> a, b;
   Aligned<double> C[3];
-  std::vector<int> begin;                           // of each colour, one more than there are
+  std::vector<int> begin;  // of each colour, one more than there are
   EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}}; }
 };
 
@@ -35,24 +35,27 @@ Colours colour(const Order& o) {
   std::vector<std::uint64_t> taken(static_cast<std::size_t>(o.rows), 0);
   std::vector<std::vector<int>> of(64);
   for (int e = 0; e < o.out.back(); ++e) {
-    if (o.b[e] < o.a[e]) continue;                  // the other part's copy
+    if (o.b[e] < o.a[e]) continue;  // the other part's copy
     std::uint64_t& at_a = taken[static_cast<std::size_t>(o.a[e])];
     std::uint64_t& at_b = taken[static_cast<std::size_t>(o.b[e])];
     const int first = std::countr_one(at_a | at_b);
-    at_a |= 1ull << first, at_b |= 1ull << first;
+    at_a |= 1ull << first;
+    at_b |= 1ull << first;
     of[static_cast<std::size_t>(first)].push_back(e);
   }
   Colours out;
   out.begin = {0};
   for (const auto& edges : of) {
     for (const int e : edges) {
-      out.a.push_back(o.a[e]), out.b.push_back(o.b[e]);
+      out.a.push_back(o.a[e]);
+      out.b.push_back(o.b[e]);
       for (int k = 0; k < 3; ++k) out.C[k].push_back(o.C[k][e]);
     }
     if (!edges.empty()) out.begin.push_back(static_cast<int>(out.a.size()));
   }
   const std::size_t padded = out.a.size() + edge_padding;
-  out.a.resize(padded), out.b.resize(padded);
+  out.a.resize(padded);
+  out.b.resize(padded);
   for (auto& C : out.C) C.resize(padded);
   return out;
 }
@@ -60,15 +63,20 @@ Colours colour(const Order& o) {
 /// Every edge of every node as an out-edge, those inside a part twice: no node has in-edges.
 Order both_ways(const Order& o) {
   Order out = o;
-  out.a.clear(), out.b.clear(), out.in_edges.clear(), out.in_nodes.clear();
+  out.a.clear();
+  out.b.clear();
+  out.in_edges.clear();
+  out.in_nodes.clear();
   for (auto& C : out.C) C.clear();
   out.most_edges = 0;
   for (Part& part : out.parts) {
     part.edge_begin = static_cast<int>(out.a.size());
     for (int n = part.node_begin; n < part.node_end; ++n) {
-      out.out[n] = static_cast<int>(out.a.size()), out.in[n] = 0;
+      out.out[n] = static_cast<int>(out.a.size());
+      out.in[n] = 0;
       const auto add = [&](int b, int e, double sign) {
-        out.a.push_back(n), out.b.push_back(b);
+        out.a.push_back(n);
+        out.b.push_back(b);
         for (int k = 0; k < 3; ++k) out.C[k].push_back(sign * o.C[k][e]);
       };
       for (int e = o.out[n]; e < o.out[n + 1]; ++e) add(o.b[e], e, 1);
@@ -77,8 +85,10 @@ Order both_ways(const Order& o) {
     part.edge_end = static_cast<int>(out.a.size());
     out.most_edges = std::max(out.most_edges, part.edge_end - part.edge_begin);
   }
-  out.out[o.rows] = static_cast<int>(out.a.size()), out.in[o.rows] = 0;
-  out.a.resize(out.a.size() + edge_padding), out.b.resize(out.b.size() + edge_padding);
+  out.out[o.rows] = static_cast<int>(out.a.size());
+  out.in[o.rows] = 0;
+  out.a.resize(out.a.size() + edge_padding);
+  out.b.resize(out.b.size() + edge_padding);
   for (auto& C : out.C) C.resize(C.size() + edge_padding);
   return out;
 }
@@ -89,27 +99,41 @@ struct Bed {
   Simulation s = make_simulation(scene, mesh, 2);
   Colours colours = colour(s.order);
   Order twice = both_ways(s.order);
-  Aligned<double> edge_array = Aligned<double>(4 * (static_cast<std::size_t>(s.order.out.back()) + 8 * s.order.parts.size()), 0.0);
+  Aligned<double> edge_array = Aligned<double>(
+      4 * (static_cast<std::size_t>(s.order.out.back()) + 8 * s.order.parts.size()), 0.0);
   Aligned<double> corner_array = Aligned<double>(4 * s.order.corner_b.size(), 0.0);
   Aligned<double> force = Aligned<double>(4 * static_cast<std::size_t>(s.order.rows), 0.0);
-  std::vector<Aligned<double>> large = std::vector<Aligned<double>>(2, Aligned<double>(4 * static_cast<std::size_t>(twice.most_edges + 8), 0.0));  // one a thread
+  std::vector<Aligned<double>> large = std::vector<Aligned<double>>(
+      2, Aligned<double>(4 * static_cast<std::size_t>(twice.most_edges + 8), 0.0));  // one a thread
   Rows rows = stage_rows(s.state, 0, 1);
   Coefficients k = s.coefficients;
 
   Bed() {
-    for (int i = 0; i < 10; ++i) s.dt = allowed_step(s), advance(s);  // strained and moving in all directions
-    rows = stage_rows(s.state, 0, 1), k.dt = 0.5 * allowed_step(s), k.acceleration = s.acceleration.data();
+    for (int i = 0; i < 10; ++i) {  // strained and moving in all directions
+      s.dt = allowed_step(s);
+      advance(s);
+    }
+    rows = stage_rows(s.state, 0, 1);
+    k.dt = 0.5 * allowed_step(s);
+    k.acceleration = s.acceleration.data();
   }
   const Part& part(int p) const { return s.order.parts[static_cast<std::size_t>(p)]; }
   void flux(const Part& p, const Order& o, const Scratch& scratch) {
-    edge_flux_part<linear, none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, false>(p, o.edges(), o.corners(), o.lists(), rows, k, scratch);
+    edge_flux_part<linear, none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, false>(
+        p, o.edges(), o.corners(), o.lists(), rows, k, scratch);
   }
   void accumulate(const Part& p, const Order& o, const Scratch& scratch) {
-    accumulate_update_part<Formulation::pFJ, GradientCorrection::none>(p, o.edges(), o.lists(), rows, k, s.boundary.constraints.data(), s.state.reactions.data(), scratch);
+    accumulate_update_part<Formulation::pFJ, GradientCorrection::none>(
+        p, o.edges(), o.lists(), rows, k, s.boundary.constraints.data(), s.state.reactions.data(), scratch);
   }
-  void stress(int p) { s.reports[static_cast<std::size_t>(p)] = s.functions.stress(part(p), rows, k, s.state.step_length.data()); }
+  void stress(int p) {
+    s.reports[static_cast<std::size_t>(p)] = s.functions.stress(part(p), rows, k, s.state.step_length.data());
+  }
   void gradient(const Order& o) {
-    for_parts(s, [&](int p, Scratch) { gradient_part<false, false, NodeWeights::none>(o.parts[static_cast<std::size_t>(p)], o.edges(), o.corners(), o.lists(), rows, k); });
+    for_parts(s, [&](int p, Scratch) {
+      gradient_part<false, false, NodeWeights::none>(o.parts[static_cast<std::size_t>(p)], o.edges(), o.corners(),
+                                                     o.lists(), rows, k);
+    });
   }
 };
 
@@ -120,9 +144,12 @@ void each_flux(const Bed& bed, const EdgeArrays& edges, int begin, int end, Use 
   alignas(64) double flux[4 * edge_block];
   for (int from = begin; from < end; from += edge_block) {
     const int count = std::min(end - from, edge_block);
-    gather_edges<linear, none, false, PressureJump::scalar, EntropyFix::none, Areas::undeformed>(from, from + count, edges, bed.rows, bed.k.theta, block, flux);
+    gather_edges<linear, none, false, PressureJump::scalar, EntropyFix::none, Areas::undeformed>(
+        from, from + count, edges, bed.rows, bed.k.theta, block, flux);
     for (int at = 0; at < count; at += 8)
-      finish_edges<none, false, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, Areas::undeformed>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, nullptr, nullptr, flux + 4 * at);
+      finish_edges<none, false, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none,
+                   Areas::undeformed>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, nullptr,
+                                      nullptr, flux + 4 * at);
     for (int at = 0; at < count; ++at) use(from + at, load4(flux + 4 * at));
   }
 }
@@ -134,14 +161,18 @@ void finish_part(Bed& bed, const Part& p, const Scratch& scratch) {
   const auto lists = bed.s.order.lists();
   corner_forces(p, bed.s.order.corners(), lists, bed.rows, bed.k, scratch.corner);
   for (int n = p.node_begin; n < p.node_end; ++n)
-    for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g) add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
-  constrain<Materials::one>(p, bed.rows, bed.k, bed.s.boundary.constraints.data(), bed.s.state.reactions.data(), scratch);
+    for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g)
+      add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
+  constrain<Materials::one>(p, bed.rows, bed.k, bed.s.boundary.constraints.data(), bed.s.state.reactions.data(),
+                            scratch);
   update<Formulation::pFJ, GradientCorrection::none, Areas::undeformed, Materials::one>(p, bed.rows, bed.k, scratch);
 }
 
 void part_buffer(Bed& bed) {
   bed.gradient(bed.s.order);
-  for_parts(bed.s, [&](int p, Scratch scratch) { bed.flux(bed.part(p), bed.s.order, scratch), bed.accumulate(bed.part(p), bed.s.order, scratch), bed.stress(p); });
+  for_parts(bed.s, [&](int p, Scratch scratch) {
+    bed.flux(bed.part(p), bed.s.order, scratch), bed.accumulate(bed.part(p), bed.s.order, scratch), bed.stress(p);
+  });
 }
 
 void part_accumulation(Bed& bed) {
@@ -155,7 +186,8 @@ void part_accumulation(Bed& bed) {
       add_row(force + 4 * edges.a[e], f);
       if (edges.b[e] >= part.node_begin && edges.b[e] < part.node_end) add_row(force + 4 * edges.b[e], -f);
     });
-    finish_part(bed, part, scratch), bed.stress(p);
+    finish_part(bed, part, scratch);
+    bed.stress(p);
   });
 }
 
@@ -163,7 +195,9 @@ void node_centric(Bed& bed) {
   bed.gradient(bed.twice);
   for_parts(bed.s, [&](int p, Scratch scratch) {
     scratch.edge = bed.large[static_cast<std::size_t>(omp_get_thread_num())].data();
-    bed.flux(bed.twice.parts[static_cast<std::size_t>(p)], bed.twice, scratch), bed.accumulate(bed.twice.parts[static_cast<std::size_t>(p)], bed.twice, scratch), bed.stress(p);
+    bed.flux(bed.twice.parts[static_cast<std::size_t>(p)], bed.twice, scratch);
+    bed.accumulate(bed.twice.parts[static_cast<std::size_t>(p)], bed.twice, scratch);
+    bed.stress(p);
   });
 }
 
@@ -189,7 +223,8 @@ void coloured_scatter(Bed& bed) {
     const int begin = bed.colours.begin[c], end = bed.colours.begin[c + 1];
 #pragma omp parallel for schedule(static) num_threads(bed.s.threads)
     for (int from = begin; from < end; from += chunk)
-      each_flux(bed, edges, from, std::min(end, from + chunk), [&](int e, Vec4 f) { add_row(force + 4 * edges.a[e], f), add_row(force + 4 * edges.b[e], -f); });
+      each_flux(bed, edges, from, std::min(end, from + chunk),
+                [&](int e, Vec4 f) { add_row(force + 4 * edges.a[e], f), add_row(force + 4 * edges.b[e], -f); });
   }
   for_parts(bed.s, [&](int p, Scratch scratch) {
     scratch.force = force + 4 * static_cast<std::ptrdiff_t>(bed.part(p).node_begin);
@@ -202,8 +237,11 @@ struct Variant {
   const char* name;
   void (*stage)(Bed&);
 };
-constexpr Variant variants[] = {{"part_buffer", part_buffer}, {"part_accumulation", part_accumulation}, {"node_centric", node_centric},
-                                {"global_edge_array", global_edge_array}, {"coloured_scatter", coloured_scatter}};
+constexpr Variant variants[] = {{"part_buffer", part_buffer},
+                                {"part_accumulation", part_accumulation},
+                                {"node_centric", node_centric},
+                                {"global_edge_array", global_edge_array},
+                                {"coloured_scatter", coloured_scatter}};
 
 /// Largest difference of the new states to the engine's, relative to its largest velocity, J, or number of {F, x}.
 double difference(Bed& bed, const Variant& variant) {
@@ -214,7 +252,8 @@ double difference(Bed& bed, const Variant& variant) {
   double most[3] = {}, size[3] = {};
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const std::size_t kind = i % row::U < 3 ? 0 : i % row::U == 3 ? 1 : 2;
-    size[kind] = std::max(size[kind], std::abs(ours[i])), most[kind] = std::max(most[kind], std::abs(ours[i] - bed.s.state.U[1][i]));
+    size[kind] = std::max(size[kind], std::abs(ours[i]));
+    most[kind] = std::max(most[kind], std::abs(ours[i] - bed.s.state.U[1][i]));
   }
   return std::max({most[0] / size[0], most[1] / size[1], most[2] / size[2]});
 }
@@ -232,7 +271,8 @@ void time_variant(benchmark::State& state, const Variant& variant, int threads) 
     return threads == 1 ? thread_seconds() - cpu : wall_seconds() - wall;
   };
   for (int r = 0; r < repetitions; ++r) {
-    ours.push_back(timed(variants[0])), seconds.push_back(timed(variant));
+    ours.push_back(timed(variants[0]));
+    seconds.push_back(timed(variant));
     ratios.push_back(seconds.back() / ours.back());
   }
   for (auto _ : state) state.SetIterationTime(median(seconds));
@@ -245,8 +285,11 @@ void time_variant(benchmark::State& state, const Variant& variant, int threads) 
 void register_variants() {
   for (const Variant& v : variants)
     for (const int threads : {1, 2})
-      benchmark::RegisterBenchmark(fmt::format("variant/{}/threads:{}", v.name, threads).c_str(), [&v, threads](benchmark::State& state) { time_variant(state, v, threads); })
-          ->Unit(benchmark::kMillisecond)->UseManualTime()->Iterations(1);
+      benchmark::RegisterBenchmark(fmt::format("variant/{}/threads:{}", v.name, threads).c_str(),
+                                   [&v, threads](benchmark::State& state) { time_variant(state, v, threads); })
+          ->Unit(benchmark::kMillisecond)
+          ->UseManualTime()
+          ->Iterations(1);
 }
 
 }  // namespace nanson

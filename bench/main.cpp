@@ -90,7 +90,8 @@ std::optional<std::filesystem::path> kept_result() {
   std::error_code none;
   for (const auto& entry : std::filesystem::directory_iterator(results, none)) {
     const std::string name = entry.path().filename();
-    if (name.rfind(prefix, 0) == 0 && entry.path().extension() == ".json" && (!newest || name > newest->filename())) newest = entry.path();
+    if (name.rfind(prefix, 0) == 0 && entry.path().extension() == ".json" && (!newest || name > newest->filename()))
+      newest = entry.path();
   }
   return newest;
 }
@@ -101,7 +102,8 @@ std::optional<double> kept_ratio(const std::filesystem::path& file, const std::s
   std::string line;
   bool inside = false;
   while (std::getline(in, line)) {
-    if (line.find("\"name\": ") != std::string::npos) inside = line.find("\"step/" + scene + "/threads:1") != std::string::npos;
+    if (line.find("\"name\": ") != std::string::npos)
+      inside = line.find("\"step/" + scene + "/threads:1") != std::string::npos;
     const auto at = line.find("\"to_naive\": ");
     if (inside && at != std::string::npos) return std::stod(line.substr(at + std::strlen("\"to_naive\": ")));
   }
@@ -110,26 +112,35 @@ std::optional<double> kept_ratio(const std::filesystem::path& file, const std::s
 
 /// ns per node-step = in-cache time/cores + DRAM bytes/bandwidth + barriers/nodes: checked on one and two threads, and told for a node with many cores.
 void print_model() {
-  constexpr int many = 64, sweeps = 4;              // two sweeps a stage, two stages
+  constexpr int many = 64, sweeps = 4;                        // two sweeps a stage, two stages
   constexpr double many_bandwidth = 400e9, many_nodes = 1e6;  // [bytes/s], [-]
-  fmt::print("\nmodel: in-cache time/cores + bytes/bandwidth + {} barriers (ns per node-step; measured beside it)\n", sweeps);
-  fmt::print("{:8} {:>9} {:>7} {:>20} {:>20} {:>42}\n", "scene", "in cache", "bytes", "1 thr.", "2 thr.", "64 cores, 400 GB/s, 1M nodes");
+  fmt::print("\nmodel: in-cache time/cores + bytes/bandwidth + {} barriers (ns per node-step; measured beside it)\n",
+             sweeps);
+  fmt::print("{:8} {:>9} {:>7} {:>20} {:>20} {:>42}\n", "scene", "in cache", "bytes", "1 thr.", "2 thr.",
+             "64 cores, 400 GB/s, 1M nodes");
   for (const StepRatio& r : step_ratios()) {
-    const auto told = [&](double cores, double bandwidth, double nodes, double barrier) { return r.in_cache / cores + 1e9 * r.bytes / bandwidth + 1e9 * sweeps * barrier / nodes; };
+    const auto told = [&](double cores, double bandwidth, double nodes, double barrier) {
+      return r.in_cache / cores + 1e9 * r.bytes / bandwidth + 1e9 * sweeps * barrier / nodes;
+    };
     const double forecast = told(many, many_bandwidth, many_nodes, 5 * r.barrier);
-    fmt::print("{:8} {:9.1f} {:7.0f} {:>20} {:>20} {:>42}\n", r.scene, r.in_cache, r.bytes, fmt::format("{:.0f} ({:.0f})", told(1, update_bandwidth(1), r.nodes, 0), r.one),
+    fmt::print("{:8} {:9.1f} {:7.0f} {:>20} {:>20} {:>42}\n", r.scene, r.in_cache, r.bytes,
+               fmt::format("{:.0f} ({:.0f})", told(1, update_bandwidth(1), r.nodes, 0), r.one),
                fmt::format("{:.0f} ({:.0f})", told(2, update_bandwidth(2), r.nodes, r.barrier), r.two),
-               fmt::format("{:.1f}, barriers {:.2f} of it (5 times the {:.1f} us here)", forecast, 5e9 * sweeps * r.barrier / many_nodes, 1e6 * r.barrier));
+               fmt::format("{:.1f}, barriers {:.2f} of it (5 times the {:.1f} us here)", forecast,
+                           5e9 * sweeps * r.barrier / many_nodes, 1e6 * r.barrier));
   }
 }
 
 void print_table(const std::optional<std::filesystem::path>& kept) {
   if (step_ratios().empty()) return;
-  fmt::print("\n{:8} {:>8} {:>26} {:>24} {:>10} {:>12}\n", "", "", "ns a node-step", "plain to one thread", "two", "one to two");
-  fmt::print("{:8} {:>8} {:>8} {:>8} {:>8} {:>24} {:>10} {:>12}\n", "scene", "nodes", "plain", "1 thr.", "2 thr.", "median (least to most)", "to plain", "threads");
+  fmt::print("\n{:8} {:>8} {:>26} {:>24} {:>10} {:>12}\n", "", "", "ns a node-step", "plain to one thread", "two",
+             "one to two");
+  fmt::print("{:8} {:>8} {:>8} {:>8} {:>8} {:>24} {:>10} {:>12}\n", "scene", "nodes", "plain", "1 thr.", "2 thr.",
+             "median (least to most)", "to plain", "threads");
   for (const StepRatio& r : step_ratios())
-    fmt::print("{:8} {:8.0f} {:8.1f} {:8.1f} {:8.1f} {:>24} {:10.2f} {:12.2f}\n", r.scene, r.nodes, r.naive, r.one, r.two,
-               fmt::format("{:.2f} ({:.2f} to {:.2f})", r.ratio, r.ratio_least, r.ratio_most), r.naive / r.two, r.speedup);
+    fmt::print("{:8} {:8.0f} {:8.1f} {:8.1f} {:8.1f} {:>24} {:10.2f} {:12.2f}\n", r.scene, r.nodes, r.naive, r.one,
+               r.two, fmt::format("{:.2f} ({:.2f} to {:.2f})", r.ratio, r.ratio_least, r.ratio_most), r.naive / r.two,
+               r.speedup);
   const double one = update_bandwidth(1), two = update_bandwidth(2);
   fmt::print("update bandwidth: {:.1f} GB/s on one thread, {:.1f} on two{}\n", 1e-9 * one, 1e-9 * two,
              two < 1.5 * one ? ": less than 1.5 times, so one to two threads is not measurable in this run" : "");
@@ -138,7 +149,8 @@ void print_table(const std::optional<std::filesystem::path>& kept) {
   for (const StepRatio& r : step_ratios()) {
     const std::optional<double> before = kept_ratio(*kept, r.scene);
     if (before && r.ratio * worse < *before)
-      fmt::print("{}: the ratio to the plain loop is {:.2f}, more than 15 % worse than the {:.2f} of {}\n", r.scene, r.ratio, *before, kept->string());
+      fmt::print("{}: the ratio to the plain loop is {:.2f}, more than 15 % worse than the {:.2f} of {}\n", r.scene,
+                 r.ratio, *before, kept->string());
   }
 }
 
@@ -149,7 +161,8 @@ std::vector<std::string> own_flags(int argc, char** argv) {
     const std::string flag = argv[i];
     if (flag == "--keep") options().keep = true;
     else if (flag == "--large") options().large = true;
-    else if (flag.rfind("--cells=", 0) == 0) options().cells = std::max(2, std::atoi(flag.c_str() + std::strlen("--cells=")));
+    else if (flag.rfind("--cells=", 0) == 0)
+      options().cells = std::max(2, std::atoi(flag.c_str() + std::strlen("--cells=")));
     else rest.push_back(flag);
   }
   return rest;

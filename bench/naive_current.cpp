@@ -9,8 +9,9 @@ namespace {
 
 /// Adds C to the current edge between a and b, turned when that runs from b to a.
 void add_area(NaiveLoop& n, int a, int b, const Eigen::Vector3d& C) {
-  const auto at = std::lower_bound(n.current_edges.begin(), n.current_edges.end(), std::pair(std::min(a, b), std::max(a, b)),
-                                   [](const NaiveEdge& e, const std::pair<int, int>& k) { return std::pair(e.a, e.b) < k; });
+  const auto at = std::lower_bound(
+      n.current_edges.begin(), n.current_edges.end(), std::pair(std::min(a, b), std::max(a, b)),
+      [](const NaiveEdge& e, const std::pair<int, int>& k) { return std::pair(e.a, e.b) < k; });
   for (int i = 0; i < 3; ++i) at->C[i] += a < b ? C[i] : -C[i];
 }
 
@@ -22,7 +23,8 @@ void dual_of_x(NaiveLoop& n, const std::vector<NaiveNode>& U) {
     for (int v = 0; v < 4; ++v) x[v] = Eigen::Vector3d(U[t[v]].x);
     const Eigen::Vector3d middle = (x[0] + x[1] + x[2] + x[3]) / 4;
     for (const auto& e : tet_edges) {
-      const Eigen::Vector3d m = (x[e[0]] + x[e[1]]) / 2, f = (x[e[0]] + x[e[1]] + x[e[2]]) / 3, g = (x[e[0]] + x[e[1]] + x[e[3]]) / 3;
+      const Eigen::Vector3d m = (x[e[0]] + x[e[1]]) / 2, f = (x[e[0]] + x[e[1]] + x[e[2]]) / 3,
+                            g = (x[e[0]] + x[e[1]] + x[e[3]]) / 3;
       add_area(n, t[e[0]], t[e[1]], 0.5 * (f - m).cross(middle - m) + 0.5 * (middle - m).cross(g - m));
     }
   }
@@ -35,7 +37,8 @@ void dual_of_x(NaiveLoop& n, const std::vector<NaiveNode>& U) {
 
 /// H_x = cof(grad x), edges its mean times C (paper, eq. 49).
 void areas_by_map(NaiveLoop& n, const std::vector<NaiveNode>& U) {
-  add_gradients<3>(n, [&](int a) { return U[a].x; }, n.grad_x);
+  add_gradients<3>(
+      n, [&](int a) { return U[a].x; }, n.grad_x);
   for (std::size_t a = 0; a < n.H_x.size(); ++a)
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) {
@@ -74,7 +77,8 @@ void current_geometry_pass(NaiveLoop& n, const std::vector<NaiveNode>& U) {
   for (std::size_t k = 0; k < n.corners.size(); ++k) {
     const NaiveCorner& c = n.corners[k];
     const Vec3 area = corner_area(n, k, c.a);
-    for (int i = 0; i < 3; ++i) n.dJ[c.a] += ((6 * n.W[c.a][i] + n.W[c.b][i] + n.W[c.c][i]) / 8 - (mapped ? n.W[c.a][i] : 0.0)) * area[i];
+    for (int i = 0; i < 3; ++i)
+      n.dJ[c.a] += ((6 * n.W[c.a][i] + n.W[c.b][i] + n.W[c.c][i]) / 8 - (mapped ? n.W[c.a][i] : 0.0)) * area[i];
   }
 }
 

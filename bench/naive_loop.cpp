@@ -39,18 +39,20 @@ struct Baseline {
   static constexpr FluxCorrection correction() { return FluxCorrection::none; }
 };
 bool is_baseline(const AnyChoice& c) {
-  return c.linear() && !c.limited() && !c.fixed() && !c.jst() && !c.tensor() && !c.current() && c.deformed() && c.correction() == FluxCorrection::none;
+  return c.linear() && !c.limited() && !c.fixed() && !c.jst() && !c.tensor() && !c.current() && c.deformed()
+         && c.correction() == FluxCorrection::none;
 }
 
 /// dP_a = theta/(4 Omega_a) sum_b [(P_a - P_b + D . grad P_a) C_ab] (x) D (method, section 14).
 void find_correction(NaiveLoop& n) {
   std::fill(n.dP.begin(), n.dP.end(), Table<3, 3>{});
-  const auto add = [&](int a, int b, const double (&C)[3]) {
+  const auto add = [&](int a, int b, const double(&C)[3]) {
     double D[3];
     for (int I = 0; I < 3; ++I) D[I] = n.X[b][I] - n.X[a][I];
     for (int i = 0; i < 3; ++i) {
       double y = 0;
-      for (int I = 0; I < 3; ++I) y += (n.stress[a].P[i][I] - n.stress[b].P[i][I] + dot(D, n.GP[a][3 * i + I].data())) * C[I];
+      for (int I = 0; I < 3; ++I)
+        y += (n.stress[a].P[i][I] - n.stress[b].P[i][I] + dot(D, n.GP[a][3 * i + I].data())) * C[I];
       for (int I = 0; I < 3; ++I) n.dP[a][i][I] += y * D[I];
     }
   };
@@ -72,11 +74,13 @@ void limit(NaiveLoop& n) {
   std::vector<std::array<double, 4>> most = n.W, least = n.W;
   for (const NaiveEdge& e : n.edges)
     for (int k = 0; k < 4; ++k) {
-      most[e.a][k] = std::max(most[e.a][k], n.W[e.b][k]), least[e.a][k] = std::min(least[e.a][k], n.W[e.b][k]);
-      most[e.b][k] = std::max(most[e.b][k], n.W[e.a][k]), least[e.b][k] = std::min(least[e.b][k], n.W[e.a][k]);
+      most[e.a][k] = std::max(most[e.a][k], n.W[e.b][k]);
+      least[e.a][k] = std::min(least[e.a][k], n.W[e.b][k]);
+      most[e.b][k] = std::max(most[e.b][k], n.W[e.a][k]);
+      least[e.b][k] = std::min(least[e.b][k], n.W[e.a][k]);
     }
   std::fill(n.L.begin(), n.L.end(), std::array<double, 4>{1, 1, 1, 1});
-  const auto visit = [&](int a, const double (&D)[3]) {
+  const auto visit = [&](int a, const double(&D)[3]) {
     for (int k = 0; k < 4; ++k) {
       const double q = 0.5 * dot(n.G[a][k].data(), D);
       if (q > 0) n.L[a][k] = std::min(n.L[a][k], (most[a][k] - n.W[a][k]) / q);
@@ -104,15 +108,19 @@ void pseudo_laplacian(NaiveLoop& n) {
 }
 
 void gradient_pass(NaiveLoop& n) {
-  add_gradients<4>(n, [&](int a) { return n.W[a].data(); }, n.G);
+  add_gradients<4>(
+      n, [&](int a) { return n.W[a].data(); }, n.G);
   if (!n.lambda.empty()) pseudo_laplacian(n);
   else if (!n.L.empty()) limit(n);
-  if (!n.GP.empty()) add_gradients<9>(n, [&](int a) { return &n.stress[a].P[0][0]; }, n.GP);
+  if (!n.GP.empty())
+    add_gradients<9>(
+        n, [&](int a) { return &n.stress[a].P[0][0]; }, n.GP);
   if (!n.dP.empty() && !n.takes_lagged) find_correction(n);
 }
 
 /// Average of a tensor of both ends times C: traction from P, deformed area vector c from H (eq. 35, 38).
-NANSON_INLINE void average_times_C(const double (&A)[3][3], const double (&B)[3][3], const double (&C)[3], double (&out)[3]) {
+NANSON_INLINE void average_times_C(const double (&A)[3][3], const double (&B)[3][3], const double (&C)[3],
+                                   double (&out)[3]) {
   for (int i = 0; i < 3; ++i) {
     out[i] = 0;
     for (int I = 0; I < 3; ++I) out[i] += 0.5 * (A[i][I] + B[i][I]) * C[I];
@@ -121,17 +129,20 @@ NANSON_INLINE void average_times_C(const double (&A)[3][3], const double (&B)[3]
 
 /// Jump of {v, Sigma_J} across the edge's midpoint, W+ - W-.
 template <class Choice>
-NANSON_INLINE void reconstruct(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&D)[3], double (&jump)[4]) {
+NANSON_INLINE void reconstruct(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&D)[3],
+                               double (&jump)[4]) {
   const int count = choice.evolves_J() ? 4 : 3;
   if (choice.limited())
-    for (int k = 0; k < count; ++k) jump[k] -= 0.5 * (n.L[e.a][k] * dot(n.G[e.a][k].data(), D) + n.L[e.b][k] * dot(n.G[e.b][k].data(), D));
+    for (int k = 0; k < count; ++k)
+      jump[k] -= 0.5 * (n.L[e.a][k] * dot(n.G[e.a][k].data(), D) + n.L[e.b][k] * dot(n.G[e.b][k].data(), D));
   else if (choice.linear())
     for (int k = 0; k < count; ++k) jump[k] -= 0.5 * (dot(n.G[e.a][k].data(), D) + dot(n.G[e.b][k].data(), D));
 }
 
 /// c . (P+ - P-) C (eq. 36b).
 template <class Choice>
-double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3], const double (&D)[3]) {
+double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3],
+                           const double (&D)[3]) {
   double across = 0;
   for (int i = 0; i < 3; ++i)
     for (int I = 0; I < 3; ++I) {
@@ -146,12 +157,14 @@ double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice
 /// (Remark 4, eq. 42) or c . (P+ - P-) C/(2 rho c_p |C|) (eq. 36b), n = c/|c|, c = H_ave C, c_p times max(1, |H_ave N|) in the deformed metric.
 /// Entropy fix: without the normal or the tangential part of D^p, or D^J, where it opposes the plain jump (method, section 3).
 template <class Choice>
-NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3], const double (&D)[3]) {
+NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const NaiveEdge& e, Choice choice,
+                                                  const double (&c)[3], const double (&D)[3]) {
   const double rho = n.material.rho, cp = n.material.cp, cs = n.material.cs;
   double plain[4], jump[4];
   for (int k = 0; k < 4; ++k) jump[k] = plain[k] = n.W[e.b][k] - n.W[e.a][k];
   reconstruct(n, e, choice, D, jump);
-  const double cc = dot(c, c), stretch = choice.deformed() ? std::max(1.0, std::sqrt(cc) / e.size) : 1.0, normal = dot(c, jump) / cc;
+  const double cc = dot(c, c), stretch = choice.deformed() ? std::max(1.0, std::sqrt(cc) / e.size) : 1.0,
+               normal = dot(c, jump) / cc;
   double by_p = cp * stretch, by_s = cs;
   if (choice.fixed()) {
     double tangential = 0;
@@ -170,7 +183,8 @@ NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const Naiv
 /// {D^p, D^J} of the Jameson-Schmidt-Turkel scheme (method, section 9).
 std::array<double, 4> jst_dissipation(const NaiveLoop& n, const NaiveEdge& e, bool evolves_J) {
   std::array<double, 4> out{};
-  for (int i = 0; i < 3; ++i) out[i] = -1.0 / 256 * n.material.rho * n.material.cp * e.size * (n.L[e.b][i] - n.L[e.a][i]);
+  for (int i = 0; i < 3; ++i)
+    out[i] = -1.0 / 256 * n.material.rho * n.material.cp * e.size * (n.L[e.b][i] - n.L[e.a][i]);
   if (evolves_J) out[3] = -1.0 / 8192 * n.material.cp * e.size * (n.L[e.b][3] - n.L[e.a][3]);
   return out;
 }
@@ -188,8 +202,12 @@ void flux_pass(NaiveLoop& n, Choice choice) {
     average_times_C(s_a.P, s_b.P, e.C, t);
     average_times_C(s_a.H, s_b.H, e.C, c);
     if (choice.current())
-      for (int i = 0; i < 3; ++i) t[i] = c[i], c[i] = e.C[i];  // sigma stands in place of H
-    std::array<double, 4> f = choice.jst() ? jst_dissipation(n, e, choice.evolves_J()) : stabilisation(n, e, choice, c, D);
+      for (int i = 0; i < 3; ++i) {  // sigma stands in place of H
+        t[i] = c[i];
+        c[i] = e.C[i];
+      }
+    std::array<double, 4> f = choice.jst() ? jst_dissipation(n, e, choice.evolves_J())
+                                           : stabilisation(n, e, choice, c, D);
     for (int i = 0; i < 3; ++i) f[i] += t[i];
     if (choice.correction() != FluxCorrection::none) {
       double q[4];
@@ -220,7 +238,8 @@ void boundary_pass(NaiveLoop& n, const std::vector<NaiveNode>& U, double t) {
   else if (n.scene->physics.boundary_flux == BoundaryFlux::adjoint)
     for (const NaiveCorner& c : n.corners)
       for (int i = 0; i < 3; ++i)
-        for (int I = 0; I < 3; ++I) n.force[c.a][i] += (P(c.a, i, I) - (6 * P(c.a, i, I) + P(c.b, i, I) + P(c.c, i, I)) / 8) * c.C[I];
+        for (int I = 0; I < 3; ++I)
+          n.force[c.a][i] += (P(c.a, i, I) - (6 * P(c.a, i, I) + P(c.b, i, I) + P(c.c, i, I)) / 8) * c.C[I];
   for (const LoadedFace& f : n.loaded) {
     const double factor = value_at(n.scene->boundary[static_cast<std::size_t>(f.condition)].time, t);
     Vec3 force = f.corner_force;
@@ -260,8 +279,8 @@ struct Weights {
 };
 
 /// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H : G + D^J/Omega, dx/dt = v (eq. 40a, 43, 31).
-void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<NaiveNode>& to, const std::vector<Table<3, 3>>& H_from,
-                 std::vector<Table<3, 3>>& H_to, const Weights& w) {
+void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<NaiveNode>& to,
+                 const std::vector<Table<3, 3>>& H_from, std::vector<Table<3, 3>>& H_to, const Weights& w) {
   const bool evolves_J = n.scene->physics.formulation != Formulation::pF;
   for (std::size_t a = 0; a < from.size(); ++a) {
     const NaiveNode U_old = n.now[a], U = from[a];

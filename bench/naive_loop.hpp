@@ -11,21 +11,21 @@ namespace nanson {
 inline double dot(const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 
 struct NaiveNode {
-  double v[3];                    // [m/s]
+  double v[3];  // [m/s]
   double J;
-  double F[3][3];                 // F[i][I]
-  double x[3];                    // [m]
+  double F[3][3];  // F[i][I]
+  double x[3];     // [m]
 };
 struct NaiveStress {
-  double P[3][3], H[3][3];        // [Pa], [-]; current areas: the Cauchy stress in place of H
+  double P[3][3], H[3][3];  // [Pa], [-]; current areas: the Cauchy stress in place of H
 };
 struct NaiveEdge {
   int a, b;
-  double C[3], size;              // [m^2] from a to b, |C|
+  double C[3], size;  // [m^2] from a to b, |C|
 };
 struct NaiveCorner {
   int a, b, c;
-  double C[3];                    // [m^2] outward, a third of the face
+  double C[3];  // [m^2] outward, a third of the face
 };
 
 template <int rows, int columns>
@@ -34,34 +34,36 @@ using Table = std::array<std::array<double, columns>, rows>;
 struct NaiveLoop {
   const Scene* scene = nullptr;
   MaterialConstants material;
-  std::vector<int> row;                            // node -> row of the simulation that it was made from
-  std::vector<Vec3> X;                             // [m]
-  std::vector<double> volume, step_length;         // [m^3], [m]
-  std::vector<NaiveEdge> edges;                    // each once, sorted by (a, b)
+  std::vector<int> row;                     // node -> row of the simulation that it was made from
+  std::vector<Vec3> X;                      // [m]
+  std::vector<double> volume, step_length;  // [m^3], [m]
+  std::vector<NaiveEdge> edges;             // each once, sorted by (a, b)
   std::vector<NaiveCorner> corners;
-  std::vector<Constraint> constraints;             // node numbers are those of this loop
+  std::vector<Constraint> constraints;  // node numbers are those of this loop
   std::vector<LoadedFace> loaded;
 
-  std::vector<NaiveNode> now, stage;               // U^n, and the state of a stage
-  std::vector<Table<3, 3>> H_now, H_stage;         // pFHJ
-  std::vector<std::array<double, 4>> W;            // {v, Sigma_J}; {v, J} for jst
+  std::vector<NaiveNode> now, stage;        // U^n, and the state of a stage
+  std::vector<Table<3, 3>> H_now, H_stage;  // pFHJ
+  std::vector<std::array<double, 4>> W;     // {v, Sigma_J}; {v, J} for jst
   std::vector<NaiveStress> stress;
-  std::vector<Table<4, 3>> G;                      // grad of {v, Sigma_J}
-  std::vector<Table<9, 3>> GP;                     // grad of P, tensor jump or full correction
-  std::vector<double> q;                           // [Pa] of Sigma_J, one an edge, pressure correction
-  std::vector<Table<3, 3>> dP;                     // correction of the stress [Pa], full correction
-  std::vector<Table<3, 3>> dG;                     // correction of the velocity gradient [m^3/s], flux correction
-  std::vector<std::array<double, 4>> L;            // limiter of W; its pseudo-Laplacian for jst
-  std::vector<std::array<int, 4>> tets;            // current areas
-  std::vector<NaiveEdge> current_edges;            // the same edges with c in C
-  std::vector<Vec3> current_corners;               // [m^2]
-  std::vector<Table<3, 3>> grad_x, H_x;            // pseudo_updated
-  std::vector<double> dJ;                          // [1/s] of the dual cells' motion
-  std::vector<Vec3> lambda;                        // [1/m] jst
-  std::vector<std::array<double, 4>> force;        // {force [N], J source [m^3/s]}
-  double t = 0;                                    // [s]
-  bool has_lagged = false, takes_lagged = false;   // dG, q and dP (within P) of the last stage, for the first of the next step; taken in this stage
-  PartReport report;                               // of the present state
+  std::vector<Table<4, 3>> G;                // grad of {v, Sigma_J}
+  std::vector<Table<9, 3>> GP;               // grad of P, tensor jump or full correction
+  std::vector<double> q;                     // [Pa] of Sigma_J, one an edge, pressure correction
+  std::vector<Table<3, 3>> dP;               // correction of the stress [Pa], full correction
+  std::vector<Table<3, 3>> dG;               // correction of the velocity gradient [m^3/s], flux correction
+  std::vector<std::array<double, 4>> L;      // limiter of W; its pseudo-Laplacian for jst
+  std::vector<std::array<int, 4>> tets;      // current areas
+  std::vector<NaiveEdge> current_edges;      // the same edges with c in C
+  std::vector<Vec3> current_corners;         // [m^2]
+  std::vector<Table<3, 3>> grad_x, H_x;      // pseudo_updated
+  std::vector<double> dJ;                    // [1/s] of the dual cells' motion
+  std::vector<Vec3> lambda;                  // [1/m] jst
+  std::vector<std::array<double, 4>> force;  // {force [N], J source [m^3/s]}
+  double t = 0;                              // [s]
+  bool has_lagged = false,
+       takes_lagged =
+           false;     // dG, q and dP (within P) of the last stage, for the first of the next step; taken in this stage
+  PartReport report;  // of the present state
 };
 
 /// The same state, geometry, supports and loads as a simulation before its first step.
@@ -85,7 +87,8 @@ double naive_dissipation(NaiveLoop& n);
 
 /// Largest difference to the rows {U, W, PH} over v, J, F, x, H, Sigma_J (or what is swept in its place) and P, each relative to the largest value of its field; stresses,
 /// whose round-off is that of kappa (J - 1), to no less than kappa/10. Or to a simulation.
-double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U, const double* W, const double* PH);
+double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U, const double* W,
+                          const double* PH);
 double largest_difference(const NaiveLoop& n, const Simulation& s);
 
 }  // namespace nanson

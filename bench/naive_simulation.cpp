@@ -14,11 +14,13 @@ void copy_state(NaiveLoop& n, const Simulation& s) {
     NaiveNode& node = n.now[a];
     node.J = U[3];
     for (int i = 0; i < 3; ++i) {
-      node.v[i] = U[i], node.x[i] = U[4 * (i + 1) + 3];
+      node.v[i] = U[i];
+      node.x[i] = U[4 * (i + 1) + 3];
       for (int I = 0; I < 3; ++I) node.F[i][I] = U[4 * (I + 1) + i];
     }
     if (n.H_now.empty()) continue;
-    for (int m = 0; m < 9; ++m) n.H_now[a][m % 3][m / 3] = s.state.H[0][static_cast<std::size_t>(row::H * n.row[a] + 4 * (m / 3) + m % 3)];
+    for (int m = 0; m < 9; ++m)
+      n.H_now[a][m % 3][m / 3] = s.state.H[0][static_cast<std::size_t>(row::H * n.row[a] + 4 * (m / 3) + m % 3)];
   }
 }
 
@@ -26,11 +28,23 @@ void allocate(NaiveLoop& n) {
   const std::size_t nodes = n.row.size();
   const PhysicsSpec& p = n.scene->physics;
   const bool full = p.flux_correction == FluxCorrection::full;
-  n.now.resize(nodes), n.stage.resize(nodes), n.W.resize(nodes), n.stress.resize(nodes), n.G.resize(nodes), n.force.resize(nodes);
-  if (p.formulation == Formulation::pFHJ) n.H_now.resize(nodes), n.H_stage.resize(nodes);
-  if (full || (p.pressure_jump == PressureJump::tensor && p.reconstruction != Reconstruction::constant)) n.GP.resize(nodes);
+  n.now.resize(nodes);
+  n.stage.resize(nodes);
+  n.W.resize(nodes);
+  n.stress.resize(nodes);
+  n.G.resize(nodes);
+  n.force.resize(nodes);
+  if (p.formulation == Formulation::pFHJ) {
+    n.H_now.resize(nodes);
+    n.H_stage.resize(nodes);
+  }
+  if (full || (p.pressure_jump == PressureJump::tensor && p.reconstruction != Reconstruction::constant))
+    n.GP.resize(nodes);
   if (full) n.dP.resize(nodes);
-  if (p.flux_correction != FluxCorrection::none) n.dG.resize(nodes), n.q.resize(n.edges.size());
+  if (p.flux_correction != FluxCorrection::none) {
+    n.dG.resize(nodes);
+    n.q.resize(n.edges.size());
+  }
   if (p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst) n.L.resize(nodes);
 }
 
@@ -40,8 +54,10 @@ void find_lambda(NaiveLoop& n) {
   std::vector<Eigen::Matrix3d> M(n.row.size(), Eigen::Matrix3d::Zero());
   for (const NaiveEdge& e : n.edges) {
     const Eigen::Vector3d D = Eigen::Vector3d(n.X[e.b].data()) - Eigen::Vector3d(n.X[e.a].data());
-    R[e.a] += D, M[e.a] += D * D.transpose();
-    R[e.b] -= D, M[e.b] += D * D.transpose();
+    R[e.a] += D;
+    M[e.a] += D * D.transpose();
+    R[e.b] -= D;
+    M[e.b] += D * D.transpose();
   }
   for (std::size_t a = 0; a < n.row.size(); ++a) {
     const Eigen::Vector3d lambda = -M[a].inverse() * R[a];
@@ -52,9 +68,16 @@ void find_lambda(NaiveLoop& n) {
 void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_row) {
   for (int r = 0; r < o.rows; ++r) {
     for (std::int32_t e = o.out[r]; e < o.out[r + 1]; ++e)
-      if (o.b[e] > r) n.edges.push_back({node_of_row[r], node_of_row[o.b[e]], {o.C[0][e], o.C[1][e], o.C[2][e]}, std::hypot(o.C[0][e], o.C[1][e], o.C[2][e])});
+      if (o.b[e] > r)
+        n.edges.push_back({node_of_row[r],
+                           node_of_row[o.b[e]],
+                           {o.C[0][e], o.C[1][e], o.C[2][e]},
+                           std::hypot(o.C[0][e], o.C[1][e], o.C[2][e])});
     for (std::int32_t g = o.corner[r]; g < o.corner[r + 1]; ++g)
-      n.corners.push_back({node_of_row[r], node_of_row[o.corner_b[g]], node_of_row[o.corner_c[g]], {o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]}});
+      n.corners.push_back({node_of_row[r],
+                           node_of_row[o.corner_b[g]],
+                           node_of_row[o.corner_c[g]],
+                           {o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]}});
   }
 }
 
@@ -62,16 +85,22 @@ void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_r
 
 NaiveLoop make_naive_loop(const Simulation& s) {
   NaiveLoop n;
-  n.scene = s.scene, n.material = s.coefficients.material, n.t = s.t;
+  n.scene = s.scene;
+  n.material = s.coefficients.material;
+  n.t = s.t;
   std::vector<int> node_of_row(static_cast<std::size_t>(s.order.rows), -1);
   for (int r = 0; r < s.order.rows; ++r) {
     const int node = s.order.node_of[r];
     if (node < 0) continue;
     node_of_row[r] = static_cast<int>(n.row.size());
-    n.row.push_back(r), n.X.push_back(s.mesh->X[node]), n.volume.push_back(s.volume[node]), n.step_length.push_back(s.state.step_length[r]);
+    n.row.push_back(r);
+    n.X.push_back(s.mesh->X[node]);
+    n.volume.push_back(s.volume[node]);
+    n.step_length.push_back(s.state.step_length[r]);
   }
   place_edges(n, s.order, node_of_row);
-  n.constraints = s.boundary.constraints, n.loaded = s.boundary.loaded;
+  n.constraints = s.boundary.constraints;
+  n.loaded = s.boundary.loaded;
   for (Constraint& h : n.constraints) h.node = node_of_row[h.node];
   for (LoadedFace& f : n.loaded)
     for (int& node : f.node) node = node_of_row[node];
@@ -82,15 +111,21 @@ NaiveLoop make_naive_loop(const Simulation& s) {
       for (int& node : t) node = node_of_row[s.order.row_of[node]];
       n.tets.push_back(t);
     }
-    n.current_edges = n.edges, n.current_corners.resize(n.corners.size()), n.dJ.resize(n.row.size());
-    if (n.scene->physics.description == Description::pseudo_updated) n.grad_x.resize(n.row.size()), n.H_x.resize(n.row.size());
+    n.current_edges = n.edges;
+    n.current_corners.resize(n.corners.size());
+    n.dJ.resize(n.row.size());
+    if (n.scene->physics.description == Description::pseudo_updated) {
+      n.grad_x.resize(n.row.size());
+      n.H_x.resize(n.row.size());
+    }
   }
   copy_state(n, s);
   naive_material(n, n.now, n.H_now);
   return n;
 }
 
-double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U_of, const double* W_of, const double* PH_of) {
+double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& nodes, const double* U_of,
+                          const double* W_of, const double* PH_of) {
   struct Field {
     double size = 0, difference = 0;
     void add(double ours, double theirs) {
@@ -103,12 +138,15 @@ double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& node
     const NaiveNode& node = nodes[a];
     const std::size_t r = static_cast<std::size_t>(n.row[a]);
     const double *U = U_of + row::U * r, *PH = PH_of + row::PH * r;
-    J.add(node.J, U[3]), swept.add(n.W[a][3], W_of[row::W * r + 3]);
+    J.add(node.J, U[3]);
+    swept.add(n.W[a][3], W_of[row::W * r + 3]);
     for (int i = 0; i < 3; ++i) {
-      v.add(node.v[i], U[i]), x.add(node.x[i], U[4 * (i + 1) + 3]);
+      v.add(node.v[i], U[i]);
+      x.add(node.x[i], U[4 * (i + 1) + 3]);
       for (int I = 0; I < 3; ++I) {
         F.add(node.F[i][I], U[4 * (I + 1) + i]);
-        P.add(n.stress[a].P[i][I], PH[8 * I + i]), H.add(n.stress[a].H[i][I], PH[8 * I + 4 + i]);
+        P.add(n.stress[a].P[i][I], PH[8 * I + i]);
+        H.add(n.stress[a].H[i][I], PH[8 * I + 4 + i]);
       }
     }
   }
@@ -122,7 +160,8 @@ double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& node
 }
 
 double largest_difference(const NaiveLoop& n, const Simulation& s) {
-  return largest_difference(n, n.now, s.state.U[0].data(), s.state.W[s.state.now].data(), s.state.PH[s.state.now].data());
+  return largest_difference(n, n.now, s.state.U[0].data(), s.state.W[s.state.now].data(),
+                            s.state.PH[s.state.now].data());
 }
 
 }  // namespace nanson

@@ -34,10 +34,14 @@ struct CacheLineAllocator {
 #pragma omp parallel for schedule(static)
     for (std::ptrdiff_t page = 0; page < pages; ++page) p[page * static_cast<std::ptrdiff_t>(small_page)] = 0;
   }
-  static constexpr std::size_t small_page = 4096;                // [bytes]
-  static std::align_val_t alignment(std::size_t n) { return std::align_val_t{n * sizeof(T) >= huge_page ? huge_page : 64}; }
+  static constexpr std::size_t small_page = 4096;  // [bytes]
+  static std::align_val_t alignment(std::size_t n) {
+    return std::align_val_t{n * sizeof(T) >= huge_page ? huge_page : 64};
+  }
   template <class Other>
-  bool operator==(const CacheLineAllocator<Other>&) const { return true; }
+  bool operator==(const CacheLineAllocator<Other>&) const {
+    return true;
+  }
 };
 
 template <class T>

@@ -12,8 +12,12 @@ namespace {
 
 static_assert(moment_count <= part_row);
 
-Vec3 cross(const Vec3& p, const Vec3& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }
-Vec3 arm(const double* arms, int n, const Vec3& about) { return {arms[row::U * n + 7] - about[0], arms[row::U * n + 11] - about[1], arms[row::U * n + 15] - about[2]}; }
+Vec3 cross(const Vec3& p, const Vec3& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
+Vec3 arm(const double* arms, int n, const Vec3& about) {
+  return {arms[row::U * n + 7] - about[0], arms[row::U * n + 11] - about[1], arms[row::U * n + 15] - about[2]};
+}
 
 void add(double* sum, const Vec3& v) {
   for (int k = 0; k < 3; ++k) sum[k] += v[k];
@@ -54,7 +58,8 @@ Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about) {
       for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {
         if (is_padding(s, n)) continue;
         const Vec3 r = arm(arms, n, about);
-        for (int k = 0; k < 3; ++k) out[k] += density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)] * r[k];
+        for (int k = 0; k < 3; ++k)
+          out[k] += density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)] * r[k];
       }
     });
     add(torque.data(), cross(sum, g));
@@ -67,9 +72,18 @@ Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about) {
 double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients& k, const double* arms) {
   const auto m = tree_sums<moment_count>(s);
   const Vec3 outside = external_torque(s, arms, s.arm_origin);
-  const Eigen::Vector3d S = Eigen::Vector3d(m[1], m[2], m[3]) / m[0], torque(m[10] - outside[0], m[11] - outside[1], m[12] - outside[2]);
+  const Eigen::Vector3d S = Eigen::Vector3d(m[1], m[2], m[3]) / m[0],
+                        torque(m[10] - outside[0], m[11] - outside[1], m[12] - outside[2]);
   Eigen::Matrix3d M;
-  M << m[4], m[7], m[8], m[7], m[5], m[9], m[8], m[9], m[6];
+  M << m[4];
+  m[7];
+  m[8];
+  m[7];
+  m[5];
+  m[9];
+  m[8];
+  m[9];
+  m[6];
   M -= m[0] * S * S.transpose();
   const Eigen::Matrix3d inertia = M.trace() * Eigen::Matrix3d::Identity() - M;
   const Eigen::Vector3d l = inertia.ldlt().solve(-torque);
@@ -77,7 +91,8 @@ double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients
   const double lambda[3] = {l[0], l[1], l[2]}, centre[3] = {s.arm_origin[0], s.arm_origin[1], s.arm_origin[2]};
   return sum_over_parts(s, [&](int p) {
     const Part& part = s.order.parts[static_cast<std::size_t>(p)];
-    return correct_part(part, nodes_of(s, part), rows, k, arms, lambda, centre, s.boundary.constraints.data(), s.state.reactions.data());
+    return correct_part(part, nodes_of(s, part), rows, k, arms, lambda, centre, s.boundary.constraints.data(),
+                        s.state.reactions.data());
   });
 }
 

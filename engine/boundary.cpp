@@ -12,10 +12,13 @@ namespace {
 double dot(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 Vec3 scaled(const Vec3& p, double s) { return {p[0] * s, p[1] * s, p[2] * s}; }
 Vec3 unit(const Vec3& p) { return scaled(p, 1 / std::sqrt(dot(p, p))); }
-Vec3 cross(const Vec3& p, const Vec3& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }
+Vec3 cross(const Vec3& p, const Vec3& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
 
-constexpr double feature_angle = std::numbers::pi / 6;  // [rad] faces of one patch that meet at a larger angle form a crease
-constexpr double same_direction = 1e-3;                 // [rad] closer directions are one
+constexpr double feature_angle = std::numbers::pi
+                                 / 6;    // [rad] faces of one patch that meet at a larger angle form a crease
+constexpr double same_direction = 1e-3;  // [rad] closer directions are one
 
 /// Area-averaged unit normals of a node's corners on one patch, one for each smooth group (a wedge of 1 degree keeps its two).
 std::vector<Vec3> group_normals(const std::vector<Vec3>& areas) {
@@ -59,7 +62,8 @@ std::vector<Held> held_directions(const BoundarySpec& c, const std::vector<Vec3>
       for (const Vec3& n : normals) {
         const int k = std::abs(n[0]) < 0.6 ? 0 : 1;
         const Vec3 s = unit(cross(n, axes[k]));
-        held.push_back({s, 0}), held.push_back({cross(n, s), 0});
+        held.push_back({s, 0});
+        held.push_back({cross(n, s), 0});
       }
       break;
     default: break;
@@ -75,7 +79,8 @@ void join(Constraint& h, const Held& held, int condition, int face) {
   const auto add = [&](int from, double w) {
     for (int s = 0; s < 3; ++s)
       if (source[s] == from || source[s] == -1) {
-        source[s] = from, weight[s] += w;
+        source[s] = from;
+        weight[s] += w;
         return;
       }
   };
@@ -89,19 +94,25 @@ void join(Constraint& h, const Held& held, int condition, int face) {
   if (h.count == 3 || size < same_direction) return;
   for (int k = 0; k < 3; ++k) h.d[h.count][k] = r[k] / size;
   h.face[h.count] = face;
-  for (int s = 0; s < 3; ++s) h.source[h.count][s] = std::max(0, source[s]), h.weight[h.count][s] = source[s] < 0 ? 0 : weight[s] / size;
+  for (int s = 0; s < 3; ++s) {
+    h.source[h.count][s] = std::max(0, source[s]);
+    h.weight[h.count][s] = source[s] < 0 ? 0 : weight[s] / size;
+  }
   ++h.count;
 }
 
 bool holds(BoundaryKind k) {
-  return k == BoundaryKind::fixed || k == BoundaryKind::symmetric || k == BoundaryKind::skew_symmetric || k == BoundaryKind::velocity;
+  return k == BoundaryKind::fixed || k == BoundaryKind::symmetric || k == BoundaryKind::skew_symmetric
+         || k == BoundaryKind::velocity;
 }
 
-void add_supports(const Mesh& mesh, const Order& o, const BoundarySpec& c, int condition, int patch, int face, std::map<int, Constraint>& by_row) {
+void add_supports(const Mesh& mesh, const Order& o, const BoundarySpec& c, int condition, int patch, int face,
+                  std::map<int, Constraint>& by_row) {
   std::map<int, std::vector<Vec3>> areas;  // row -> its corners' area vectors on the patch
   for (int n = 0; n < o.rows; ++n)
     for (int g = o.corner[n]; g < o.corner[n + 1]; ++g)
-      if (mesh.faces[o.corner_face[g]].patch == patch) areas[n].push_back({o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]});
+      if (mesh.faces[o.corner_face[g]].patch == patch)
+        areas[n].push_back({o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]});
   for (const auto& [n, list] : areas) {
     Constraint& h = by_row[n];
     h.node = n;
@@ -109,16 +120,23 @@ void add_supports(const Mesh& mesh, const Order& o, const BoundarySpec& c, int c
   }
 }
 
-void add_loads(Boundary& out, const Mesh& mesh, Order& o, const BoundarySpec& c, int condition, int patch, std::vector<int>& load_of_face) {
+void add_loads(Boundary& out, const Mesh& mesh, Order& o, const BoundarySpec& c, int condition, int patch,
+               std::vector<int>& load_of_face) {
   for (std::size_t f = 0; f < mesh.faces.size(); ++f) {
     if (mesh.faces[f].patch != patch) continue;
     const auto& n = mesh.faces[f].nodes;
     Vec3 e1, e2;
-    for (int k = 0; k < 3; ++k) e1[k] = mesh.X[n[1]][k] - mesh.X[n[0]][k], e2[k] = mesh.X[n[2]][k] - mesh.X[n[0]][k];
+    for (int k = 0; k < 3; ++k) {
+      e1[k] = mesh.X[n[1]][k] - mesh.X[n[0]][k];
+      e2[k] = mesh.X[n[2]][k] - mesh.X[n[0]][k];
+    }
     const Vec3 A = cross(e1, e2);
     const double third = std::sqrt(dot(A, A)) / 6;
     const std::array<int, 3> rows{o.row_of[n[0]], o.row_of[n[1]], o.row_of[n[2]]};
-    if (load_of_face[f] < 0) load_of_face[f] = static_cast<int>(out.slot_nodes.size()), out.slot_nodes.push_back(rows);
+    if (load_of_face[f] < 0) {
+      load_of_face[f] = static_cast<int>(out.slot_nodes.size());
+      out.slot_nodes.push_back(rows);
+    }
     out.loaded.push_back({load_of_face[f], rows, c.kind, scaled(c.traction, third), c.pressure, condition});
   }
 }
@@ -147,7 +165,8 @@ Boundary make_boundary(const Scene& scene, const Mesh& mesh, Order& order) {
   }
   for (std::size_t p = 0; p < mentioned.size(); ++p)
     if (!mentioned[p]) out.free_faces.push_back(mesh.patch_names[p]);
-  for (std::size_t g = 0; g < order.corner_face.size(); ++g) order.corner_load[g] = load_of_face[static_cast<std::size_t>(order.corner_face[g])];
+  for (std::size_t g = 0; g < order.corner_face.size(); ++g)
+    order.corner_load[g] = load_of_face[static_cast<std::size_t>(order.corner_face[g])];
   for (const auto& entry : by_row) out.constraints.push_back(entry.second);
   std::size_t next = 0;
   for (Part& p : order.parts) {

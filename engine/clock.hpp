@@ -9,7 +9,9 @@
 
 namespace nanson {
 
-inline double wall_seconds() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+inline double wall_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 /// Of the whole process, all threads.
 inline double cpu_seconds() {

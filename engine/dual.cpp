@@ -10,7 +10,9 @@ namespace {
 
 Vec3 operator-(const Vec3& p, const Vec3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
 Vec3 operator+(const Vec3& p, const Vec3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
-Vec3 cross(const Vec3& p, const Vec3& q) { return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]}; }
+Vec3 cross(const Vec3& p, const Vec3& q) {
+  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
+}
 double dot(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
 double norm(const Vec3& p) { return std::sqrt(dot(p, p)); }
 
@@ -29,7 +31,8 @@ void find_edges(const Mesh& mesh, Dual& dual) {
   std::partial_sum(begin.begin(), begin.end(), begin.begin());
   std::vector<int> upper(static_cast<std::size_t>(begin.back())), next(begin.begin(), begin.end() - 1);
   for (const auto& t : mesh.tets)
-    for (const auto& e : tet_edges) upper[static_cast<std::size_t>(next[std::min(t[e[0]], t[e[1]])]++)] = std::max(t[e[0]], t[e[1]]);
+    for (const auto& e : tet_edges)
+      upper[static_cast<std::size_t>(next[std::min(t[e[0]], t[e[1]])]++)] = std::max(t[e[0]], t[e[1]]);
   dual.first.assign(nodes + 1, 0);
   for (std::size_t a = 0; a < nodes; ++a) {
     const auto from = upper.begin() + begin[a], to = upper.begin() + begin[a + 1];
@@ -39,12 +42,15 @@ void find_edges(const Mesh& mesh, Dual& dual) {
   }
   dual.edges.reserve(static_cast<std::size_t>(dual.first[nodes]));
   for (std::size_t a = 0; a < nodes; ++a)
-    for (int i = 0; i < next[a]; ++i) dual.edges.push_back({static_cast<int>(a), upper[static_cast<std::size_t>(begin[a] + i)], {}});
+    for (int i = 0; i < next[a]; ++i)
+      dual.edges.push_back({static_cast<int>(a), upper[static_cast<std::size_t>(begin[a] + i)], {}});
 }
 
 std::size_t edge_of(const Dual& dual, int a, int b) {
   const auto before = [](const DualEdge& e, int node) { return e.b < node; };
-  return static_cast<std::size_t>(std::lower_bound(dual.edges.begin() + dual.first[a], dual.edges.begin() + dual.first[a + 1], b, before) - dual.edges.begin());
+  return static_cast<std::size_t>(
+      std::lower_bound(dual.edges.begin() + dual.first[a], dual.edges.begin() + dual.first[a + 1], b, before)
+      - dual.edges.begin());
 }
 
 }  // namespace
@@ -67,9 +73,11 @@ Dual make_dual(const Mesh& mesh) {
   for (int f = 0; f < static_cast<int>(mesh.faces.size()); ++f) {
     const auto& n = mesh.faces[f].nodes;
     const Vec3 A = cross(mesh.X[n[1]] - mesh.X[n[0]], mesh.X[n[2]] - mesh.X[n[0]]);
-    for (int k = 0; k < 3; ++k) dual.corners.push_back({n[k], n[(k + 1) % 3], n[(k + 2) % 3], f, {A[0] / 6, A[1] / 6, A[2] / 6}});
+    for (int k = 0; k < 3; ++k)
+      dual.corners.push_back({n[k], n[(k + 1) % 3], n[(k + 2) % 3], f, {A[0] / 6, A[1] / 6, A[2] / 6}});
   }
-  std::stable_sort(dual.corners.begin(), dual.corners.end(), [](const DualCorner& p, const DualCorner& q) { return p.a < q.a; });
+  std::stable_sort(dual.corners.begin(), dual.corners.end(),
+                   [](const DualCorner& p, const DualCorner& q) { return p.a < q.a; });
   return dual;
 }
 
@@ -78,10 +86,15 @@ DualDefects check_dual(const Mesh& mesh, const Dual& dual) {
   std::vector<Vec3> sum(mesh.X.size(), Vec3{});
   std::vector<double> size(mesh.X.size(), 0.0);
   for (const auto& e : dual.edges) {
-    sum[e.a] = sum[e.a] + e.C, sum[e.b] = sum[e.b] - e.C;
-    size[e.a] += norm(e.C), size[e.b] += norm(e.C);
+    sum[e.a] = sum[e.a] + e.C;
+    sum[e.b] = sum[e.b] - e.C;
+    size[e.a] += norm(e.C);
+    size[e.b] += norm(e.C);
   }
-  for (const auto& c : dual.corners) sum[c.a] = sum[c.a] + c.C, size[c.a] += norm(c.C);
+  for (const auto& c : dual.corners) {
+    sum[c.a] = sum[c.a] + c.C;
+    size[c.a] += norm(c.C);
+  }
   for (std::size_t n = 0; n < sum.size(); ++n) worst.closure = std::max(worst.closure, norm(sum[n]) / size[n]);
 
   double tets = 0, cells = 0;
@@ -95,7 +108,8 @@ DualDefects check_dual(const Mesh& mesh, const Dual& dual) {
   worst.volume = std::abs(cells - tets) / tets;
   for (std::size_t e = 0; e < dual.edges.size(); ++e) {
     const Vec3 D = mesh.X[dual.edges[e].b] - mesh.X[dual.edges[e].a];
-    worst.edge = std::max(worst.edge, std::abs(dot(dual.edges[e].C, D) - 0.5 * around[e]) / (norm(dual.edges[e].C) * norm(D)));
+    worst.edge = std::max(worst.edge,
+                          std::abs(dot(dual.edges[e].C, D) - 0.5 * around[e]) / (norm(dual.edges[e].C) * norm(D)));
   }
   return worst;
 }

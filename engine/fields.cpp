@@ -14,7 +14,9 @@
 namespace nanson {
 namespace {
 
-const double* U_row(const Simulation& s, int node) { return &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])]; }
+const double* U_row(const Simulation& s, int node) {
+  return &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
+}
 const double* PH_row(const Simulation& s, int node) {
   return &s.state.PH[s.state.now][static_cast<std::size_t>(row::PH * s.order.row_of[static_cast<std::size_t>(node)])];
 }
@@ -73,13 +75,20 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
   for (int k = 0; k < 9; ++k) {
     if (name == "P") out[k] = P_at(s, node, k / 3, k % 3);
     if (name == "H") out[k] = PH[8 * (k % 3) + 4 + k / 3];
-    if (name == "H" && has_current_areas(s.scene->physics.description)) out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
+    if (name == "H" && has_current_areas(s.scene->physics.description))
+      out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
     if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
   }
-  const auto detF = [&] { const auto F = F_of(U); return determinant(F, cofactor(F)); };
+  const auto detF = [&] {
+    const auto F = F_of(U);
+    return determinant(F, cofactor(F));
+  };
   if (name == "detF") out[0] = detF();
   if (name == "J") out[0] = evolves_J(s.scene->physics.formulation) ? U[3] : detF();
-  if (name == "pressure") { const auto a = cauchy(s, node); out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3; }
+  if (name == "pressure") {
+    const auto a = cauchy(s, node);
+    out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3;
+  }
   if (name == "plastic_strain") out[0] = plastic_strain(s, node);
   if (name == "von_mises") out[0] = von_mises(cauchy(s, node));
 }
@@ -90,7 +99,8 @@ std::vector<float> field(const Simulation& s, const FieldName& name) {
   for (int n = 0; n < s.order.nodes; ++n) {
     double v[9];
     field_at(s, name.name, n, v);
-    for (int k = 0; k < name.components; ++k) values[static_cast<std::size_t>(n * name.components + k)] = static_cast<float>(v[k]);
+    for (int k = 0; k < name.components; ++k)
+      values[static_cast<std::size_t>(n * name.components + k)] = static_cast<float>(v[k]);
   }
   return values;
 }
@@ -103,17 +113,23 @@ ProbePlace place_probe(const Mesh& mesh, const Vec3& at) {
     Vec3 p[4];
     for (int k = 0; k < 4; ++k) p[k] = mesh.X[static_cast<std::size_t>(n[k])];
     const double V = tet_volume(p[0], p[1], p[2], p[3]);
-    const std::array<double, 4> w{tet_volume(at, p[1], p[2], p[3]) / V, tet_volume(p[0], at, p[2], p[3]) / V, tet_volume(p[0], p[1], at, p[3]) / V,
-                                  tet_volume(p[0], p[1], p[2], at) / V};
+    const std::array<double, 4> w{tet_volume(at, p[1], p[2], p[3]) / V, tet_volume(p[0], at, p[2], p[3]) / V,
+                                  tet_volume(p[0], p[1], at, p[3]) / V, tet_volume(p[0], p[1], p[2], at) / V};
     const double least = std::min(std::min(w[0], w[1]), std::min(w[2], w[3]));
-    if (least > best_least) best = {static_cast<int>(t), n, w, at}, best_least = least;
+    if (least > best_least) {
+      best = {static_cast<int>(t), n, w, at};
+      best_least = least;
+    }
   }
   if (best.tet >= 0) return best;
   double nearest = std::numeric_limits<double>::max();
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     const double d = std::hypot(mesh.X[n][0] - at[0], mesh.X[n][1] - at[1], mesh.X[n][2] - at[2]);
     const int node = static_cast<int>(n);
-    if (d < nearest) nearest = d, best = {-1, {node, node, node, node}, {1, 0, 0, 0}, mesh.X[n]};
+    if (d < nearest) {
+      nearest = d;
+      best = {-1, {node, node, node, node}, {1, 0, 0, 0}, mesh.X[n]};
+    }
   }
   return best;
 }
@@ -138,13 +154,23 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
     const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
     const double V = s.volume[static_cast<std::size_t>(n)];
     const PointState now = exact_solution(*s.scene, middle, X, s.t), start = exact_solution(*s.scene, middle, X, 0);
-    const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)}, ours[2] = {m.rho * U_row(s, n)[0], P_at(s, n, 0, 0)};
-    for (int k = 0; k < 3; ++k) x1[k] += V * std::abs(exact[k]), x2[k] += V * exact[k] * exact[k];
-    for (int k = 0; k < 2; ++k) e1[k] += V * std::abs(ours[k] - exact[k]), e2[k] += V * (ours[k] - exact[k]) * (ours[k] - exact[k]);
+    const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)},
+                 ours[2] = {m.rho * U_row(s, n)[0], P_at(s, n, 0, 0)};
+    for (int k = 0; k < 3; ++k) {
+      x1[k] += V * std::abs(exact[k]);
+      x2[k] += V * exact[k] * exact[k];
+    }
+    for (int k = 0; k < 2; ++k) {
+      e1[k] += V * std::abs(ours[k] - exact[k]);
+      e2[k] += V * (ours[k] - exact[k]) * (ours[k] - exact[k]);
+    }
   }
-  errors["p1_L1"] = e1[0] / x1[0], errors["p1_L2"] = std::sqrt(e2[0] / x2[0]);
-  errors["P11_L1"] = e1[1] / x1[1], errors["P11_L2"] = std::sqrt(e2[1] / x2[1]);
-  errors["P11_L1_t0"] = e1[1] / x1[2], errors["P11_L2_t0"] = std::sqrt(e2[1] / x2[2]);
+  errors["p1_L1"] = e1[0] / x1[0];
+  errors["p1_L2"] = std::sqrt(e2[0] / x2[0]);
+  errors["P11_L1"] = e1[1] / x1[1];
+  errors["P11_L2"] = std::sqrt(e2[1] / x2[1]);
+  errors["P11_L1_t0"] = e1[1] / x1[2];
+  errors["P11_L2_t0"] = std::sqrt(e2[1] / x2[2]);
   return errors;
 }
 

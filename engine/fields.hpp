@@ -18,7 +18,7 @@ struct ProbePlace {
   int tet = -1;
   std::array<int, 4> nodes{};
   std::array<double, 4> weight{};
-  Vec3 at{};                              // [m] where it really is
+  Vec3 at{};  // [m] where it really is
 };
 ProbePlace place_probe(const Mesh& mesh, const Vec3& at);
 void probe(const Simulation& s, const ProbePlace& place, const FieldName& name, double* out);

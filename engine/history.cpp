@@ -54,7 +54,8 @@ void add_monitor_values(Simulation& s, std::vector<double>& row) {
 }  // namespace
 
 const FieldName& field_named(std::string_view name) {
-  const auto at = std::find_if(field_names.begin(), field_names.end(), [&](const FieldName& f) { return f.name == name; });
+  const auto at = std::find_if(field_names.begin(), field_names.end(),
+                               [&](const FieldName& f) { return f.name == name; });
   if (at == field_names.end()) throw std::invalid_argument("no field is called " + std::string(name));
   return *at;
 }
@@ -74,13 +75,15 @@ std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vecto
   c.insert(c.end(), {{"min_detF", "-"}, {"max_detF", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
   if (!s.state.plastic.empty()) c.push_back({"max_plastic_strain", "-"});
   add_monitor_columns(*s.scene, c);
-  if (s.scene->physics.formulation == Formulation::pFp) c.insert(c.end(), {{"projection_iterations", "1/stage"}, {"projection_residual", "-"}});
+  if (s.scene->physics.formulation == Formulation::pFp)
+    c.insert(c.end(), {{"projection_iterations", "1/stage"}, {"projection_residual", "-"}});
   for (const std::string& face : s.boundary.held_faces)
     for (const char* k : axis) c.push_back({fmt::format("reaction_{}_{}", face, k), "N"});
   for (const Probe& p : probes)
     for (const std::string& name : p.spec.fields) {
       const FieldName& f = field_named(name);
-      for (int k = 0; k < f.components; ++k) c.push_back({fmt::format("{}_{}{}", p.spec.name, name, component(f, k)), std::string(f.unit)});
+      for (int k = 0; k < f.components; ++k)
+        c.push_back({fmt::format("{}_{}{}", p.spec.name, name, component(f, k)), std::string(f.unit)});
     }
   return c;
 }
@@ -90,14 +93,16 @@ std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes)
   const Momenta m = momenta(s);
   const Extrema x = extrema(s);
   std::vector<double> row{static_cast<double>(s.step), s.t, s.dt, e.kinetic, e.strain};
-  if (s.scene->monitor.energy) row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s, e)});
+  if (s.scene->monitor.energy)
+    row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s, e)});
   if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) row.push_back(s.ledger.angular_momentum_work);
   row.insert(row.end(), m.linear.begin(), m.linear.end());
   row.insert(row.end(), m.angular.begin(), m.angular.end());
   row.insert(row.end(), {x.min_detF, x.max_detF, x.min_J, x.max_J, x.max_speed});
   if (!s.state.plastic.empty()) row.push_back(x.max_plastic_strain);
   add_monitor_values(s, row);
-  if (s.scene->physics.formulation == Formulation::pFp) row.insert(row.end(), {0.5 * static_cast<double>(s.projection.step_iterations), s.projection.residual});
+  if (s.scene->physics.formulation == Formulation::pFp)
+    row.insert(row.end(), {0.5 * static_cast<double>(s.projection.step_iterations), s.projection.residual});
   for (std::size_t face = 0; face < s.boundary.held_faces.size(); ++face) {
     const Vec3 R = reaction(s, static_cast<int>(face));
     row.insert(row.end(), R.begin(), R.end());

@@ -17,8 +17,9 @@ struct Residual {
 
 Residual constraint_residual(Simulation& s, const ProjectionRows& rows) {
   const Projection& p = s.projection;
-  const Three sum = sum_three(
-      s, [&](const Part& part) { return constraint_residual_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, p.coefficients); });
+  const Three sum = sum_three(s, [&](const Part& part) {
+    return constraint_residual_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, p.coefficients);
+  });
   Residual r{std::sqrt(sum.s[0]), std::sqrt(sum.s[1])};
   if (!p.closed) return r;
   const double mean = sum.s[2] / p.total_volume;
@@ -28,9 +29,11 @@ Residual constraint_residual(Simulation& s, const ProjectionRows& rows) {
 
 std::string limit_met(const Simulation& s, int number, const Residual& r) {
   const ProjectionSpec& spec = s.scene->projection;
-  return fmt::format("the projection met projection.max_iterations = {} in stage {} of step {}, t = {:.6e} s: its residual is {:.3g} of the velocity gradient, projection.tolerance = {:g}; "
-                     "a smaller time.cfl or better shaped tets may help",
-                     spec.max_iterations, number + 1, s.step + 1, s.t + s.dt, r.norm / r.scale, spec.tolerance);
+  return fmt::format(
+      "the projection met projection.max_iterations = {} in stage {} of step {}, t = {:.6e} s: its residual is {:.3g} "
+      "of the velocity gradient, projection.tolerance = {:g}; "
+      "a smaller time.cfl or better shaped tets may help",
+      spec.max_iterations, number + 1, s.step + 1, s.t + s.dt, r.norm / r.scale, spec.tolerance);
 }
 
 /// Velocity and pressure of U[1] until the constraint holds. A state that is not finite is left to the stress sweep, which reports it.
@@ -45,8 +48,12 @@ std::string solve_constraint(Simulation& s, const ProjectionRows& rows, int numb
     p.residual = r.scale > 0 ? r.norm / r.scale : 0;
     if (!std::isfinite(r.norm) || r.norm <= goal) return {};
     if (spent >= spec.max_iterations) return limit_met(s, number, r);
-    const int iterations = solve_pressure(s, rows, r.norm, goal, static_cast<int>(spec.max_iterations - spent)).iterations;
-    spent += iterations, p.iterations += iterations, p.step_iterations += iterations, ++p.rounds;
+    const int iterations =
+        solve_pressure(s, rows, r.norm, goal, static_cast<int>(spec.max_iterations - spent)).iterations;
+    spent += iterations;
+    p.iterations += iterations;
+    p.step_iterations += iterations;
+    ++p.rounds;
   }
 }
 
@@ -56,7 +63,8 @@ void average_part(const Part& part, State& u, Projection& p) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
     double *U = &u.U[0][row::U * static_cast<std::size_t>(n)], *last = &u.U[1][row::U * static_cast<std::size_t>(n)];
     for (int k = 0; k < row::U; ++k) U[k] = k == 3 && keeps_pressure ? last[k] : 0.5 * (U[k] + last[k]);
-    p.volume[0][n] = 0.5 * (p.volume[0][n] + p.volume[1][n]), p.taken[0][n] = 0.5 * (p.taken[0][n] + p.taken[1][n]);
+    p.volume[0][n] = 0.5 * (p.volume[0][n] + p.volume[1][n]);
+    p.taken[0][n] = 0.5 * (p.taken[0][n] + p.taken[1][n]);
   }
 }
 
@@ -70,13 +78,20 @@ std::string project_stage(Simulation& s, int number) {
   const ProjectionRows rows = projection_rows(s, number, 1);
   std::string failure;
   s.clock.time("projection_start", [&] {
-    for_parts(s, [&](int i, Scratch) { projection_edges_part(p.parts[i], s.order.edges(), s.order.corners(), s.order.lists(), rows, p.coefficients); });
-    for_parts(s, [&](int i, Scratch) { projection_start_part(p.parts[i], s.order.edges(), s.order.lists(), rows, p.coefficients); });
+    for_parts(s, [&](int i, Scratch) {
+      projection_edges_part(p.parts[i], s.order.edges(), s.order.corners(), s.order.lists(), rows, p.coefficients);
+    });
+    for_parts(s, [&](int i, Scratch) {
+      projection_start_part(p.parts[i], s.order.edges(), s.order.lists(), rows, p.coefficients);
+    });
   });
   s.clock.time("projection", [&] { failure = solve_constraint(s, rows, number); });
   s.clock.time("stress", [&] {
     Rows next{};
-    next.X = u.X.data(), next.U_new = u.U[number == 0 ? 1 : 0].data(), next.W_new = u.W[0].data(), next.PH_new = u.PH[0].data();
+    next.X = u.X.data();
+    next.U_new = u.U[number == 0 ? 1 : 0].data();
+    next.W_new = u.W[0].data();
+    next.PH_new = u.PH[0].data();
     for_parts(s, [&](int i, Scratch) {
       const Part& part = s.order.parts[i];
       if (number == 1) average_part(part, u, p);

@@ -17,7 +17,10 @@ constexpr double pi = std::numbers::pi;
 PointState standing_wave(const Scene& scene, const Vec3& X, double t) {
   const double omega = std::sqrt(3.0) / 2 * constants_of(scene.material).cp * pi, U0 = scene.initial.amplitude;
   double s[3], c[3];
-  for (int i = 0; i < 3; ++i) s[i] = std::sin(pi * X[i] / 2), c[i] = std::cos(pi * X[i] / 2);
+  for (int i = 0; i < 3; ++i) {
+    s[i] = std::sin(pi * X[i] / 2);
+    c[i] = std::cos(pi * X[i] / 2);
+  }
   PointState out;
   for (int i = 0; i < 3; ++i) {
     const int j = (i + 1) % 3, k = (i + 2) % 3;
@@ -64,13 +67,15 @@ Vec3 plate_mode(const InitialSpec& s, const Vec3& X) {
 
 bool has_exact_solution(const Scene& scene) {
   using enum InitialField;
-  return scene.initial.field == standing_wave || scene.initial.field == plane_wave || scene.initial.field == manufactured;
+  return scene.initial.field == standing_wave || scene.initial.field == plane_wave
+         || scene.initial.field == manufactured;
 }
 
 Vec3 middle_of_box(const Mesh& mesh) {
   Vec3 middle;
   for (int k = 0; k < 3; ++k) {
-    const auto [least, most] = std::minmax_element(mesh.X.begin(), mesh.X.end(), [k](const Vec3& p, const Vec3& q) { return p[k] < q[k]; });
+    const auto [least, most] = std::minmax_element(mesh.X.begin(), mesh.X.end(),
+                                                   [k](const Vec3& p, const Vec3& q) { return p[k] < q[k]; });
     middle[k] = 0.5 * ((*least)[k] + (*most)[k]);
   }
   return middle;
@@ -78,7 +83,8 @@ Vec3 middle_of_box(const Mesh& mesh) {
 
 PointState exact_solution(const Scene& scene, const Vec3& middle, const Vec3& X, double t) {
   if (scene.initial.field == InitialField::manufactured) return manufactured_solution(scene, X, t);
-  return scene.initial.field == InitialField::standing_wave ? standing_wave(scene, X, t) : plane_wave(scene, middle, X, t);
+  return scene.initial.field == InitialField::standing_wave ? standing_wave(scene, X, t)
+                                                            : plane_wave(scene, middle, X, t);
 }
 
 PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, const Vec3& centre) {
@@ -94,7 +100,9 @@ PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, 
     }
     case InitialField::twist: out.v = rotation({0, 0, s.twist_omega * std::sin(pi * X[2] / (2 * s.height))}, X); break;
     case InitialField::plate_mode: out.v = plate_mode(s, X); break;
-    case InitialField::punch: out.v = {0, 0, -s.v0 * (0.5 - std::abs(X[0])) * (0.5 - std::abs(X[1])) * X[2] / s.height}; break;  // scenes, 6
+    case InitialField::punch:
+      out.v = {0, 0, -s.v0 * (0.5 - std::abs(X[0])) * (0.5 - std::abs(X[1])) * X[2] / s.height};
+      break;  // scenes, 6
     case InitialField::manufactured:
     case InitialField::standing_wave:
     case InitialField::plane_wave: return exact_solution(scene, middle, X, 0);
@@ -103,7 +111,8 @@ PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, 
 }
 
 double initial_J(const Scene& scene, const double (&F)[3][3]) {
-  const bool linear = scene.initial.field == InitialField::manufactured ? scene.material.law == Law::linear_elastic : scene.initial.J == InitialJ::linear;
+  const bool linear = scene.initial.field == InitialField::manufactured ? scene.material.law == Law::linear_elastic
+                                                                        : scene.initial.J == InitialJ::linear;
   if (has_exact_solution(scene) && linear) return 1 + (F[0][0] - 1) + (F[1][1] - 1) + (F[2][2] - 1);
   Tensor<double> T;
   for (int i = 0; i < 9; ++i) T[i / 3][i % 3] = F[i / 3][i % 3];

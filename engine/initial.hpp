@@ -9,8 +9,8 @@ namespace nanson {
 
 /// Displacement, velocity and deformation gradient of a material point.
 struct PointState {
-  Vec3 u{};                                        // [m]
-  Vec3 v{};                                        // [m/s]
+  Vec3 u{};  // [m]
+  Vec3 v{};  // [m/s]
   double F[3][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 };
 

@@ -19,7 +19,10 @@ double cos_pi(double x) { return sin_pi(x + 0.5); }
 
 Waves<double> waves_at(const Scene& scene, const Vec3& X) {
   Waves<double> w;
-  for (int m = 0; m < 3; ++m) w.s[m] = sin_pi(X[m] / scene.initial.length), w.c[m] = cos_pi(X[m] / scene.initial.length);
+  for (int m = 0; m < 3; ++m) {
+    w.s[m] = sin_pi(X[m] / scene.initial.length);
+    w.c[m] = cos_pi(X[m] / scene.initial.length);
+  }
   w.k = std::numbers::pi / scene.initial.length;
   return w;
 }
@@ -33,7 +36,9 @@ void with_law(const MaterialSpec& m, Use use) {
     if (m.volumetric == Volumetric::barrier) use(law, std::integral_constant<Volumetric, Volumetric::barrier>{});
     else use(law, std::integral_constant<Volumetric, Volumetric::quadratic>{});
   };
-  if (m.law == Law::linear_elastic) use(std::integral_constant<Law, Law::linear_elastic>{}, std::integral_constant<Volumetric, Volumetric::quadratic>{});
+  if (m.law == Law::linear_elastic)
+    use(std::integral_constant<Law, Law::linear_elastic>{},
+        std::integral_constant<Volumetric, Volumetric::quadratic>{});
   if (m.law == Law::neo_hookean) with_volumetric(std::integral_constant<Law, Law::neo_hookean>{});
   if (m.law == Law::mooney_rivlin) with_volumetric(std::integral_constant<Law, Law::mooney_rivlin>{});
 }
@@ -43,19 +48,24 @@ void with_law(const MaterialSpec& m, Use use) {
 Manufactured make_manufactured(const Scene& scene, const Mesh& mesh, const Order& order) {
   Manufactured out;
   if (scene.initial.field != InitialField::manufactured) return out;
-  out.k = std::numbers::pi / scene.initial.length, out.omega = omega_of(scene);
+  out.k = std::numbers::pi / scene.initial.length;
+  out.omega = omega_of(scene);
   out.waves.assign(wave_row * static_cast<std::size_t>(order.rows), 0.0);
   for (int r = 0; r < order.rows; ++r) {
     const int n = order.node_of[static_cast<std::size_t>(r)];
     if (n < 0) continue;
     const Waves<double> w = waves_at(scene, mesh.X[static_cast<std::size_t>(n)]);
     double* lanes = &out.waves[static_cast<std::size_t>(8 * wave_row * (r / 8) + r % 8)];
-    for (int m = 0; m < 3; ++m) lanes[8 * m] = w.s[m], lanes[8 * (3 + m)] = w.c[m];
+    for (int m = 0; m < 3; ++m) {
+      lanes[8 * m] = w.s[m];
+      lanes[8 * (3 + m)] = w.c[m];
+    }
   }
   return out;
 }
 
-void add_body_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material, const Part& part, double t, double dt, double* U_new) {
+void add_body_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material, const Part& part,
+                    double t, double dt, double* U_new) {
   const double oscillation = std::cos(m.omega * t);
   double size[3];
   for (int i = 0; i < 3; ++i) size[i] = scene.initial.amplitudes[static_cast<std::size_t>(i)] * oscillation;
@@ -64,7 +74,10 @@ void add_body_force(const Manufactured& m, const Scene& scene, const MaterialCon
       const double* lanes = &m.waves[static_cast<std::size_t>(wave_row * n)];
       Waves<Vec8> w;
       w.k = m.k;
-      for (int d = 0; d < 3; ++d) w.s[d] = load8(lanes + 8 * d), w.c[d] = load8(lanes + 8 * (3 + d));
+      for (int d = 0; d < 3; ++d) {
+        w.s[d] = load8(lanes + 8 * d);
+        w.c[d] = load8(lanes + 8 * (3 + d));
+      }
       Vec8 g[3];
       manufactured_body_force<law(), volumetric()>(w, size, m.omega, material, g);
       for (int lane = 0; lane < 8; ++lane)
@@ -82,7 +95,8 @@ PointState manufactured_solution(const Scene& scene, const Vec3& X, double t) {
     const std::size_t k = static_cast<std::size_t>(i);
     const double A = scene.initial.amplitudes[k], wave = wave_derivative(w, i, {0, 0, 0});
     size[i] = A * std::cos(omega * t);
-    out.u[k] = size[i] * wave, out.v[k] = -A * omega * std::sin(omega * t) * wave;
+    out.u[k] = size[i] * wave;
+    out.v[k] = -A * omega * std::sin(omega * t) * wave;
   }
   const Tensor<double> F = manufactured_F(w, size);
   for (int m = 0; m < 9; ++m) out.F[m / 3][m % 3] = F[m / 3][m % 3];
@@ -92,7 +106,9 @@ PointState manufactured_solution(const Scene& scene, const Vec3& X, double t) {
 Tensor<double> exact_stress(const MaterialSpec& spec, const MaterialConstants& m, const PointState& p) {
   Tensor<double> F, P{};
   for (int k = 0; k < 9; ++k) F[k / 3][k % 3] = p.F[k / 3][k % 3];
-  with_law(spec, [&](auto law, auto volumetric) { P = Material<law(), volumetric(), Isochoric::F, Formulation::pF>::stress(F, F, 1.0, m).P; });
+  with_law(spec, [&](auto law, auto volumetric) {
+    P = Material<law(), volumetric(), Isochoric::F, Formulation::pF>::stress(F, F, 1.0, m).P;
+  });
   return P;
 }
 

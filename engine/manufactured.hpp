@@ -7,17 +7,18 @@
 
 namespace nanson {
 
-inline constexpr int wave_row = 6;                 // s_1 s_2 s_3 c_1 c_2 c_3 a row
+inline constexpr int wave_row = 6;  // s_1 s_2 s_3 c_1 c_2 c_3 a row
 
 struct Manufactured {
-  Aligned<double> waves;                           // empty in all other scenes; eight rows side by side
-  double k = 0, omega = 0;                         // [1/m], [1/s]
+  Aligned<double> waves;    // empty in all other scenes; eight rows side by side
+  double k = 0, omega = 0;  // [1/m], [1/s]
 };
 
 Manufactured make_manufactured(const Scene& scene, const Mesh& mesh, const Order& order);
 
 /// v += dt g on the new rows of a part, g the body force at time t [s].
-void add_body_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material, const Part& part, double t, double dt, double* U_new);
+void add_body_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material, const Part& part,
+                    double t, double dt, double* U_new);
 
 /// The motion at X and t.
 PointState manufactured_solution(const Scene& scene, const Vec3& X, double t);

@@ -12,12 +12,15 @@ inline Hardening hardening_of(const MaterialSpec& m) {
   Hardening h;
   if (m.law != Law::hencky_j2) return h;
   if (m.hardening.empty()) {
-    h.count = 1, h.tau_y[0] = m.yield_stress, h.slope[0] = m.hardening_modulus;
+    h.count = 1;
+    h.tau_y[0] = m.yield_stress;
+    h.slope[0] = m.hardening_modulus;
     return h;
   }
   for (const auto& [eps_p, tau_y] : m.hardening) {
     const int i = h.count++;
-    h.eps_p[i] = eps_p, h.tau_y[i] = tau_y;
+    h.eps_p[i] = eps_p;
+    h.tau_y[i] = tau_y;
     if (i > 0) h.slope[i - 1] = (tau_y - h.tau_y[i - 1]) / (eps_p - h.eps_p[i - 1]);
   }
   return h;

@@ -22,7 +22,8 @@ std::vector<MaterialLaw> make_laws(const Scene& scene) {
   for (const MaterialSpec& m : scene.materials) {
     MaterialLaw law;
     law.constants = constants_of(m);
-    law.rho_cp = law.constants.rho * law.constants.cp, law.rho_cs = law.constants.rho * law.constants.cs;
+    law.rho_cp = law.constants.rho * law.constants.cp;
+    law.rho_cs = law.constants.rho * law.constants.cs;
     law.functions = find_part_functions(scene.physics, m, Materials::several);
     laws.push_back(law);
   }
@@ -34,14 +35,16 @@ void find_runs(Mixture& m, const Order& order, const std::vector<int>& group) {
   m.group.resize(static_cast<std::size_t>(order.rows));
   for (int n = 0; n < order.rows; ++n) {
     const int node = order.node_of[static_cast<std::size_t>(n)];
-    m.group[static_cast<std::size_t>(n)] = node >= 0 ? group[static_cast<std::size_t>(node)] : m.group[static_cast<std::size_t>(n - 1)];
+    m.group[static_cast<std::size_t>(n)] = node >= 0 ? group[static_cast<std::size_t>(node)]
+                                                     : m.group[static_cast<std::size_t>(n - 1)];
   }
   for (const Part& part : order.parts) {
     m.first_run.push_back(static_cast<int>(m.runs.size()));
     for (int n = part.node_begin; n < part.node_end; ++n) {
       const int g = m.group[static_cast<std::size_t>(n)];
       if (n == part.node_begin || g != m.runs.back().group) m.runs.push_back({n, n, 0, g});
-      m.runs.back().end = n + 1, m.runs.back().nodes += order.node_of[static_cast<std::size_t>(n)] >= 0;
+      m.runs.back().end = n + 1;
+      m.runs.back().nodes += order.node_of[static_cast<std::size_t>(n)] >= 0;
     }
   }
   m.first_run.push_back(static_cast<int>(m.runs.size()));
@@ -49,7 +52,8 @@ void find_runs(Mixture& m, const Order& order, const std::vector<int>& group) {
 
 void find_shares(Mixture& m, const Order& order, const std::vector<double>& volume) {
   const std::size_t rows = static_cast<std::size_t>(order.rows), laws = m.laws.size();
-  m.share.assign(laws, Aligned<double>(rows, 0.0)), m.rho.assign(rows, 0.0);
+  m.share.assign(laws, Aligned<double>(rows, 0.0));
+  m.rho.assign(rows, 0.0);
   for (std::size_t n = 0; n < rows; ++n) {
     const std::vector<int>& present = m.groups[static_cast<std::size_t>(m.group[n])];
     const int node = order.node_of[n];
@@ -57,7 +61,9 @@ void find_shares(Mixture& m, const Order& order, const std::vector<double>& volu
     for (std::size_t r = 0; r < laws && node >= 0; ++r) total += volume[laws * static_cast<std::size_t>(node) + r];
     for (const int law : present) {
       const std::size_t r = static_cast<std::size_t>(law);
-      m.share[r][n] = present.size() == 1 ? 1 : node < 0 ? 1.0 / static_cast<double>(present.size()) : volume[laws * static_cast<std::size_t>(node) + r] / total;
+      m.share[r][n] = present.size() == 1 ? 1
+                      : node < 0          ? 1.0 / static_cast<double>(present.size())
+                                          : volume[laws * static_cast<std::size_t>(node) + r] / total;
       m.rho[n] += m.share[r][n] * m.laws[r].constants.rho;
     }
   }
@@ -67,14 +73,16 @@ void find_shares(Mixture& m, const Order& order, const std::vector<double>& volu
 template <class Value>
 double mean_at(const Mixture& m, std::size_t n, Value value) {
   double sum = 0;
-  for (const int law : m.groups[static_cast<std::size_t>(m.group[n])]) sum += m.share[static_cast<std::size_t>(law)][n] * value(m.laws[static_cast<std::size_t>(law)]);
+  for (const int law : m.groups[static_cast<std::size_t>(m.group[n])])
+    sum += m.share[static_cast<std::size_t>(law)][n] * value(m.laws[static_cast<std::size_t>(law)]);
   return sum;
 }
 
 /// rho c_p and rho c_s of an edge: means of its two nodes. Padding edges are never used, but their lanes are computed.
 void find_impedances(const Mixture& m, Order& o) {
   const std::size_t edges = static_cast<std::size_t>(o.out.back());
-  o.rho_cp.assign(o.a.size(), 1.0), o.rho_cs.assign(o.a.size(), 1.0);
+  o.rho_cp.assign(o.a.size(), 1.0);
+  o.rho_cs.assign(o.a.size(), 1.0);
   for (std::size_t e = 0; e < edges; ++e) {
     const std::size_t a = static_cast<std::size_t>(o.a[e]), b = static_cast<std::size_t>(o.b[e]);
     const auto mean = [&](auto value) { return 0.5 * (mean_at(m, a, value) + mean_at(m, b, value)); };
@@ -89,27 +97,35 @@ void shorten_steps(const Mixture& m, const Order& o, Aligned<double>& step_lengt
   std::vector<double> excess(static_cast<std::size_t>(o.rows), 1.0);
   const auto visit = [&](std::size_t n, double rho_cp) {
     double cp = 0;
-    for (const int law : m.groups[static_cast<std::size_t>(m.group[n])]) cp = std::max(cp, m.laws[static_cast<std::size_t>(law)].constants.cp);
+    for (const int law : m.groups[static_cast<std::size_t>(m.group[n])])
+      cp = std::max(cp, m.laws[static_cast<std::size_t>(law)].constants.cp);
     const double kappa = mean_at(m, n, [](const MaterialLaw& l) { return l.constants.kappa; });
     excess[n] = std::max({excess[n], rho_cp / (m.rho[n] * cp), kappa / (rho_cp * cp)});
   };
-  for (std::size_t e = 0; e < static_cast<std::size_t>(o.out.back()); ++e) visit(static_cast<std::size_t>(o.a[e]), o.rho_cp[e]), visit(static_cast<std::size_t>(o.b[e]), o.rho_cp[e]);
+  for (std::size_t e = 0; e < static_cast<std::size_t>(o.out.back()); ++e) {
+    visit(static_cast<std::size_t>(o.a[e]), o.rho_cp[e]);
+    visit(static_cast<std::size_t>(o.b[e]), o.rho_cp[e]);
+  }
   for (std::size_t n = 0; n < excess.size(); ++n) step_length[n] /= excess[n];
 }
 
 Coefficients of_law(Coefficients k, const MaterialLaw& law) {
-  k.material = law.constants, k.rho_cp = law.rho_cp, k.rho_cs = law.rho_cs;
+  k.material = law.constants;
+  k.rho_cp = law.rho_cp;
+  k.rho_cs = law.rho_cs;
   return k;
 }
 
 Part part_of(int begin, int end) {
   Part part{};
-  part.node_begin = begin, part.node_end = end;
+  part.node_begin = begin;
+  part.node_end = end;
   return part;
 }
 
 /// {X, 1/Omega_a,r}: a run's rows as material r alone sees them. Returns what stands for row 0.
-const double* rows_of_material(const MaterialRun& run, int end, const Rows& rows, const Aligned<double>& share, double* out) {
+const double* rows_of_material(const MaterialRun& run, int end, const Rows& rows, const Aligned<double>& share,
+                               double* out) {
   for (int n = run.begin; n < end; ++n) {
     double* X = out + row::X * (n - run.begin);
     store4(X, load4(rows.X + row::X * n));
@@ -134,14 +150,17 @@ NodeMaterials node_materials(const Scene& scene, const Mesh& mesh) {
   if (scene.materials.empty()) return out;
   const std::vector<int> material = material_of_regions(scene, mesh);
   for (const int region : mesh.tet_region)
-    if (material[static_cast<std::size_t>(region)] < 0) throw std::invalid_argument("region " + mesh.region_names[static_cast<std::size_t>(region)] + " has no material");
+    if (material[static_cast<std::size_t>(region)] < 0)
+      throw std::invalid_argument("region " + mesh.region_names[static_cast<std::size_t>(region)] + " has no material");
   out.materials = static_cast<int>(scene.materials.size());
   const std::size_t m = scene.materials.size();
   out.volume.assign(m * mesh.X.size(), 0.0);
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& tet = mesh.tets[t];
     const double quarter = 0.25 * tet_volume(mesh.X[tet[0]], mesh.X[tet[1]], mesh.X[tet[2]], mesh.X[tet[3]]);
-    for (const int n : tet) out.volume[m * static_cast<std::size_t>(n) + static_cast<std::size_t>(material[static_cast<std::size_t>(mesh.tet_region[t])])] += quarter;
+    for (const int n : tet)
+      out.volume[m * static_cast<std::size_t>(n)
+                 + static_cast<std::size_t>(material[static_cast<std::size_t>(mesh.tet_region[t])])] += quarter;
   }
   std::map<std::vector<int>, int> known;
   const auto number = [&](const std::vector<int>& present) {
@@ -150,14 +169,16 @@ NodeMaterials node_materials(const Scene& scene, const Mesh& mesh) {
     return at->second;
   };
   for (int r = 0; r < out.materials; ++r) number({r});
-  for (std::size_t n = 0; n < mesh.X.size(); ++n) out.group.push_back(number(materials_at(&out.volume[m * n], out.materials)));
+  for (std::size_t n = 0; n < mesh.X.size(); ++n)
+    out.group.push_back(number(materials_at(&out.volume[m * n], out.materials)));
   return out;
 }
 
 Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& order, Aligned<double>& step_length) {
   Mixture m;
   if (nodes.group.empty()) return m;
-  m.laws = make_laws(scene), m.groups = nodes.groups;
+  m.laws = make_laws(scene);
+  m.groups = nodes.groups;
   find_runs(m, order, nodes.group);
   find_shares(m, order, nodes.volume);
   find_impedances(m, order);
@@ -165,7 +186,8 @@ Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& orde
   return m;
 }
 
-PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& rows, const Coefficients& k, const double* step_length, double* scratch) {
+PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& rows, const Coefficients& k,
+                        const double* step_length, double* scratch) {
   const Part part = part_of(run.begin, run.end);
   const std::vector<int>& present = m.groups[static_cast<std::size_t>(run.group)];
   if (present.size() == 1) {
@@ -179,17 +201,23 @@ PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& ro
     const MaterialLaw& law = m.laws[static_cast<std::size_t>(r)];
     const Aligned<double>& share = m.share[static_cast<std::size_t>(r)];
     Rows mine = rows;
-    mine.PH_new = PH - row::PH * static_cast<std::ptrdiff_t>(run.begin), mine.W_new = W - row::W * static_cast<std::ptrdiff_t>(run.begin);
+    mine.PH_new = PH - row::PH * static_cast<std::ptrdiff_t>(run.begin);
+    mine.W_new = W - row::W * static_cast<std::ptrdiff_t>(run.begin);
     mine.X = rows_of_material(run, run.end, rows, share, X);
     Coefficients own_k = of_law(k, law);
-    own_k.streams = false;                          // read again at once
+    own_k.streams = false;  // read again at once
     const PartReport own = law.functions.stress(part, mine, own_k, step_length);
-    report.fastest = std::max(report.fastest, own.fastest), report.broken = report.broken || own.broken, report.plastic_work += own.plastic_work;
+    report.fastest = std::max(report.fastest, own.fastest);
+    report.broken = report.broken || own.broken;
+    report.plastic_work += own.plastic_work;
     const bool first = r == present.front();
     for (int n = run.begin; n < run.end; ++n) {
       const double w = share[static_cast<std::size_t>(n)];
-      const auto add = [&](double* sum, const double* term, Vec4 weight) { store4(sum, first ? weight * load4(term) : fma(weight, load4(term), load4(sum))); };
-      for (int i = 0; i < row::PH; i += 4) add(rows.PH_new + row::PH * n + i, mine.PH_new + row::PH * n + i, broadcast4(w));
+      const auto add = [&](double* sum, const double* term, Vec4 weight) {
+        store4(sum, first ? weight * load4(term) : fma(weight, load4(term), load4(sum)));
+      };
+      for (int i = 0; i < row::PH; i += 4)
+        add(rows.PH_new + row::PH * n + i, mine.PH_new + row::PH * n + i, broadcast4(w));
       const double Sigma_J = first ? 0.0 : rows.W_new[row::W * n + 3];
       store4(rows.W_new + row::W * n, load4(mine.W_new + row::W * n));
       rows.W_new[row::W * n + 3] = Sigma_J + w * mine.W_new[row::W * n + 3];

@@ -12,9 +12,10 @@ namespace nanson {
 /// The materials around every mesh node. Nodes with the same ones form a group; group r < materials is that of material r alone, the others are interfaces.
 struct NodeMaterials {
   int materials = 1;
-  std::vector<double> volume;              // [m^3] Omega_a,r of the node's dual cell in material r, `materials` a node; empty with one material
-  std::vector<int> group;                  // a node; empty with one material
-  std::vector<std::vector<int>> groups;    // materials of each group, growing
+  std::vector<double>
+      volume;  // [m^3] Omega_a,r of the node's dual cell in material r, `materials` a node; empty with one material
+  std::vector<int> group;                // a node; empty with one material
+  std::vector<std::vector<int>> groups;  // materials of each group, growing
 };
 NodeMaterials node_materials(const Scene& scene, const Mesh& mesh);
 
@@ -23,14 +24,14 @@ std::vector<int> material_of_regions(const Scene& scene, const Mesh& mesh);
 
 /// Rows of one part and one group: the law's kernels run over whole runs, whose rows are padded to multiples of 8.
 struct MaterialRun {
-  int begin = 0, end = 0, nodes = 0;       // rows, `nodes` of them no padding
+  int begin = 0, end = 0, nodes = 0;  // rows, `nodes` of them no padding
   int group = 0;
 };
 
 struct MaterialLaw {
   MaterialConstants constants;
-  double rho_cp = 0, rho_cs = 0;           // [kg/(m^2 s)]
-  PartFunctions functions;                 // stress, strain_energy
+  double rho_cp = 0, rho_cs = 0;  // [kg/(m^2 s)]
+  PartFunctions functions;        // stress, strain_energy
 };
 
 /// Empty with one material.
@@ -38,10 +39,10 @@ struct Mixture {
   std::vector<MaterialLaw> laws;
   std::vector<std::vector<int>> groups;
   std::vector<MaterialRun> runs;
-  std::vector<int> first_run;              // of every part, one more entry than parts
-  std::vector<int> group;                  // a row
-  std::vector<Aligned<double>> share;      // [-] a law: Omega_a,r / Omega_a a row
-  Aligned<double> rho;                     // [kg/m^3] a row: sum_r Omega_a,r rho_r / Omega_a, so that the mass is exact
+  std::vector<int> first_run;          // of every part, one more entry than parts
+  std::vector<int> group;              // a row
+  std::vector<Aligned<double>> share;  // [-] a law: Omega_a,r / Omega_a a row
+  Aligned<double> rho;                 // [kg/m^3] a row: sum_r Omega_a,r rho_r / Omega_a, so that the mass is exact
 
   bool empty() const { return laws.empty(); }
   Materials materials() const { return empty() ? Materials::one : Materials::several; }
@@ -51,10 +52,13 @@ struct Mixture {
 Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& order, Aligned<double>& step_length);
 
 /// Doubles that mixed_stress and mixed_energy need for a part of so many rows.
-constexpr std::size_t mixture_scratch(int rows) { return static_cast<std::size_t>(row::PH + row::W + row::X) * static_cast<std::size_t>(rows); }
+constexpr std::size_t mixture_scratch(int rows) {
+  return static_cast<std::size_t>(row::PH + row::W + row::X) * static_cast<std::size_t>(rows);
+}
 
 /// Stress sweep over rows of one group: on an interface P, H and Sigma_J are the volume-weighted means of the laws, each at the node's F, H, J.
-PartReport mixed_stress(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k, const double* step_length, double* scratch);
+PartReport mixed_stress(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k,
+                        const double* step_length, double* scratch);
 
 /// Sum of Omega_a,r psi_r(F, H, J) [J].
 double mixed_energy(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k);

@@ -16,7 +16,10 @@ namespace {
 Rows present_rows(Simulation& s) {
   State& u = s.state;
   Rows r{};
-  r.X = u.X.data(), r.U_new = u.U[0].data(), r.H_new = u.H[0].data(), r.plastic = u.plastic.data();
+  r.X = u.X.data();
+  r.U_new = u.U[0].data();
+  r.H_new = u.H[0].data();
+  r.plastic = u.plastic.data();
   return r;
 }
 
@@ -26,14 +29,17 @@ std::array<double, count> sums_over_nodes(Simulation& s, Add add) {
   return sums_over_parts<count>(s, [&](int p, double* sums) {
     const Part& part = s.order.parts[static_cast<std::size_t>(p)];
     for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n)
-      if (!is_padding(s, n)) add(&s.state.U[0][static_cast<std::size_t>(row::U * n)], density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)], sums);
+      if (!is_padding(s, n))
+        add(&s.state.U[0][static_cast<std::size_t>(row::U * n)],
+            density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)], sums);
   });
 }
 
 /// What energies are compared with [J]: a body that starts at rest has no initial energy.
 double energy_scale(const Simulation& s) { return std::max(s.ledger.initial_energy, s.ledger.largest_work); }
 
-constexpr long settling_steps = 20;  // a load that starts from nothing does work as small as its error in the first of them
+constexpr long settling_steps =
+    20;  // a load that starts from nothing does work as small as its error in the first of them
 
 double position(const double* U, int k) { return U[4 * (k + 1) + 3]; }
 double norm3(double x, double y, double z) { return std::sqrt(x * x + y * y + z * z); }
@@ -49,11 +55,14 @@ double detF(const double* U) {
 Energies energies(Simulation& s) {
   const Rows rows = present_rows(s);
   Energies e;
-  e.kinetic = sums_over_nodes<1>(s, [](const double* U, double m, double* sum) { *sum += 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]); })[0];
+  e.kinetic = sums_over_nodes<1>(s, [](const double* U, double m, double* sum) {
+    *sum += 0.5 * m * (U[0] * U[0] + U[1] * U[1] + U[2] * U[2]);
+  })[0];
   e.strain = sum_over_parts(s, [&](int p) {
     if (!s.mixture.empty()) {
       double sum = 0;
-      for (int i = s.mixture.first_run[static_cast<std::size_t>(p)]; i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i)
+      for (int i = s.mixture.first_run[static_cast<std::size_t>(p)];
+           i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i)
         sum += mixed_energy(s.mixture, s.mixture.runs[static_cast<std::size_t>(i)], rows, s.coefficients);
       return sum;
     }
@@ -69,9 +78,11 @@ Momenta momenta(Simulation& s) {
     const double speed = norm3(U[0], U[1], U[2]);
     for (int k = 0; k < 3; ++k) {
       const int i = (k + 1) % 3, j = (k + 2) % 3;
-      out[k] += mass * U[k], out[3 + k] += mass * (position(U, i) * U[j] - position(U, j) * U[i]);
+      out[k] += mass * U[k];
+      out[3 + k] += mass * (position(U, i) * U[j] - position(U, j) * U[i]);
     }
-    out[6] += mass * speed, out[7] += mass * speed * norm3(position(U, 0), position(U, 1), position(U, 2));
+    out[6] += mass * speed;
+    out[7] += mass * speed * norm3(position(U, 0), position(U, 1), position(U, 2));
   });
   return {{sum[0], sum[1], sum[2]}, {sum[3], sum[4], sum[5]}, sum[6], sum[7]};
 }
@@ -79,30 +90,40 @@ Momenta momenta(Simulation& s) {
 Extrema extrema(const Simulation& s) {
   const bool with_J = evolves_J(s.scene->physics.formulation);
   double least_d = 1e300, most_d = -1e300, least_J = 1e300, most_J = -1e300, speed = 0, strain = 0;
-#pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min : least_d, least_J) reduction(max : most_d, most_J, speed, strain)
+#pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min                 \
+                                                                           : least_d, least_J) \
+    reduction(max                                                                              \
+              : most_d, most_J, speed, strain)
   for (int n = 0; n < s.order.rows; ++n) {
     if (s.order.node_of[static_cast<std::size_t>(n)] < 0) continue;
     const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * n)];
     const double d = detF(U), J = with_J ? U[3] : d;
-    least_d = std::min(least_d, d), most_d = std::max(most_d, d);
-    least_J = std::min(least_J, J), most_J = std::max(most_J, J);
+    least_d = std::min(least_d, d);
+    most_d = std::max(most_d, d);
+    least_J = std::min(least_J, J);
+    most_J = std::max(most_J, J);
     speed = std::max(speed, norm3(U[0], U[1], U[2]));
-    if (!s.state.plastic.empty()) strain = std::max(strain, s.state.plastic[static_cast<std::size_t>(row::plastic * n + 3)]);
+    if (!s.state.plastic.empty())
+      strain = std::max(strain, s.state.plastic[static_cast<std::size_t>(row::plastic * n + 3)]);
   }
   return {least_d, most_d, least_J, most_J, speed, strain};
 }
 
 double energy_closure(const Simulation& s, const Energies& e) {
   const Ledger& l = s.ledger;
-  const double residual = std::abs(e.kinetic + e.strain + l.dissipated - l.external_work - l.angular_momentum_work - l.initial_energy), scale = energy_scale(s);
+  const double residual = std::abs(e.kinetic + e.strain + l.dissipated - l.external_work - l.angular_momentum_work
+                                   - l.initial_energy),
+               scale = energy_scale(s);
   return scale > 0 ? residual / scale : 0;
 }
 
 double linear_momentum_drift(Simulation& s) {
-  if (!s.manufactured.waves.empty()) return std::numeric_limits<double>::quiet_NaN();  // the impulse of its body force is not booked
+  if (!s.manufactured.waves.empty())
+    return std::numeric_limits<double>::quiet_NaN();  // the impulse of its body force is not booked
   const Momenta m = momenta(s);
   const Ledger& l = s.ledger;
-  const double d = norm3(m.linear[0] - l.initial_momentum[0] - l.impulse[0], m.linear[1] - l.initial_momentum[1] - l.impulse[1],
+  const double d = norm3(m.linear[0] - l.initial_momentum[0] - l.impulse[0],
+                         m.linear[1] - l.initial_momentum[1] - l.impulse[1],
                          m.linear[2] - l.initial_momentum[2] - l.impulse[2]);
   return m.linear_scale > 0 ? d / m.linear_scale : 0;
 }
@@ -114,7 +135,9 @@ std::optional<double> angular_momentum_drift(Simulation& s) {
   if (!free && s.scene->time.integrator != Integrator::tvd_rk2) return std::nullopt;
   const Momenta m = momenta(s);
   const Vec3 &L = s.ledger.initial_angular_momentum, &I = s.ledger.angular_impulse;
-  return m.angular_scale > 0 ? norm3(m.angular[0] - L[0] - I[0], m.angular[1] - L[1] - I[1], m.angular[2] - L[2] - I[2]) / m.angular_scale : 0;
+  return m.angular_scale > 0 ? norm3(m.angular[0] - L[0] - I[0], m.angular[1] - L[1] - I[1], m.angular[2] - L[2] - I[2])
+                                   / m.angular_scale
+                             : 0;
 }
 
 namespace {
@@ -138,13 +161,19 @@ std::vector<char> inside_one_material(const Simulation& s) {
 }  // namespace
 
 double checkerboard(Simulation& s) {
-  Aligned<double> G(row::G * static_cast<std::size_t>(s.order.rows), 0.0);  // the state's own may be absent, or of an earlier stage
+  Aligned<double> G(row::G * static_cast<std::size_t>(s.order.rows),
+                    0.0);  // the state's own may be absent, or of an earlier stage
   Rows rows{};
-  rows.X = s.state.X.data(), rows.W = s.state.W[s.state.now].data(), rows.G = G.data();
+  rows.X = s.state.X.data();
+  rows.W = s.state.W[s.state.now].data();
+  rows.G = G.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
-  for_parts(s, [&](int p, Scratch) { gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists, rows, s.coefficients); });
+  for_parts(s, [&](int p, Scratch) {
+    gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists,
+                                                   rows, s.coefficients);
+  });
   const std::vector<char> inside = inside_one_material(s);
   const auto counts = [&](int n) { return inside.empty() || inside[static_cast<std::size_t>(n)]; };
   const auto sum = [&](bool left_over) {
@@ -190,11 +219,13 @@ double pressure_stabilisation_power(Simulation& s, const Rows& rows) {
 
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt) {
   s.ledger.dissipated += weighted_dt * tree_sum(s.part_sums);
-  if (s.scene->physics.formulation == Formulation::pFp) s.ledger.dissipated += weighted_dt * pressure_stabilisation_power(s, rows);
+  if (s.scene->physics.formulation == Formulation::pFp)
+    s.ledger.dissipated += weighted_dt * pressure_stabilisation_power(s, rows);
   double power = 0;
   for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)
     for (int n : s.boundary.slot_nodes[slot])
-      for (int k = 0; k < 3; ++k) power += s.state.loads[4 * slot + static_cast<std::size_t>(k)] * rows.W[row::W * n + k];
+      for (int k = 0; k < 3; ++k)
+        power += s.state.loads[4 * slot + static_cast<std::size_t>(k)] * rows.W[row::W * n + k];
   const Vec3& g = s.scene->body_force;
   if (g[0] != 0 || g[1] != 0 || g[2] != 0)
     power += sum_over_parts(s, [&](int p) {
@@ -246,7 +277,8 @@ Vec3 reaction(const Simulation& s, int face) {
   for (std::size_t i = 0; i < s.boundary.constraints.size(); ++i) {
     const Constraint& h = s.boundary.constraints[i];
     for (int m = 0; m < h.count; ++m)
-      for (int k = 0; k < 3 && h.face[m] == face; ++k) sum[k] += s.state.mean_reactions[reaction_row * i + static_cast<std::size_t>(m)] * h.d[m][k];
+      for (int k = 0; k < 3 && h.face[m] == face; ++k)
+        sum[k] += s.state.mean_reactions[reaction_row * i + static_cast<std::size_t>(m)] * h.d[m][k];
   }
   return sum;
 }
@@ -254,7 +286,8 @@ Vec3 reaction(const Simulation& s, int face) {
 std::vector<int> tets_around(const Mesh& mesh, int node) {
   std::vector<int> tets;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t)
-    if (std::find(mesh.tets[t].begin(), mesh.tets[t].end(), node) != mesh.tets[t].end()) tets.push_back(static_cast<int>(t));
+    if (std::find(mesh.tets[t].begin(), mesh.tets[t].end(), node) != mesh.tets[t].end())
+      tets.push_back(static_cast<int>(t));
   return tets;
 }
 
@@ -270,15 +303,19 @@ std::string place(const Simulation& s, int node) {
   }
   const double* U = &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
   const Vec3& X = mesh.X[static_cast<std::size_t>(node)];
-  return fmt::format("node {} at X = ({:.6g}, {:.6g}, {:.6g}), x = ({:.6g}, {:.6g}, {:.6g}) m, det F = {:.6g}, J = {:.6g}, |v| = {:.6g} m/s, tets {}, region {}", node,
-                     X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), detF(U), evolves_J(s.scene->physics.formulation) ? U[3] : detF(U),
-                     norm3(U[0], U[1], U[2]), fmt::join(tets, " "), fmt::join(regions, " "));
+  return fmt::format(
+      "node {} at X = ({:.6g}, {:.6g}, {:.6g}), x = ({:.6g}, {:.6g}, {:.6g}) m, det F = {:.6g}, J = {:.6g}, |v| = "
+      "{:.6g} m/s, tets {}, region {}",
+      node, X[0], X[1], X[2], position(U, 0), position(U, 1), position(U, 2), detF(U),
+      evolves_J(s.scene->physics.formulation) ? U[3] : detF(U), norm3(U[0], U[1], U[2]), fmt::join(tets, " "),
+      fmt::join(regions, " "));
 }
 
 /// The cause as a word and in words; nothing where the row is sound.
 std::pair<std::string_view, const char*> broken_by(const double* U, bool with_J) {
   const double d = detF(U);
-  if (!std::isfinite(d) || !std::isfinite(norm3(U[0], U[1], U[2]))) return {"not_finite", std::isfinite(d) ? "v is not finite" : "det F is not finite"};
+  if (!std::isfinite(d) || !std::isfinite(norm3(U[0], U[1], U[2])))
+    return {"not_finite", std::isfinite(d) ? "v is not finite" : "det F is not finite"};
   if (!(d > 0)) return {"detF", "det F is not positive"};
   if (with_J && std::isfinite(U[3]) && !(U[3] > 0)) return {"J", "J is not positive"};
   if (!std::isfinite(U[3])) return {"not_finite", with_J ? "J is not finite" : "the pressure is not finite"};
@@ -294,17 +331,21 @@ Breakdown locate_breakdown(Simulation& s, int stage) {
     const auto [cause, why] = broken_by(U, with_J);
     if (why)
       return {node,
-              fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or better shaped mesh there, or volumetric = \"barrier\" may help",
+              fmt::format("{} in stage {} of step {}, t = {:.6e} s, dt = {:.3e} s: {}. A smaller time.cfl, a finer or "
+                          "better shaped mesh there, or volumetric = \"barrier\" may help",
                           why, stage, s.step + 1, s.t + s.dt, s.dt, place(s, node)),
               cause};
   }
-  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt), "not_finite"};
+  return {-1, fmt::format("unphysical state in stage {} of step {}, t = {:.6e} s", stage, s.step + 1, s.t + s.dt),
+          "not_finite"};
 }
 
 Breakdown collapse(Simulation& s, double allowed) {
   const auto worst = limiting_nodes(s, 1);
-  return {worst[0].first, fmt::format("the step collapsed at step {}, t = {:.6e} s: dt = {:.3e} s is below time.dt_collapse = {:g} times the first, {:.3e} s; set by {}", s.step,
-                                      s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first)),
+  return {worst[0].first,
+          fmt::format("the step collapsed at step {}, t = {:.6e} s: dt = {:.3e} s is below time.dt_collapse = {:g} "
+                      "times the first, {:.3e} s; set by {}",
+                      s.step, s.t, allowed, s.scene->time.dt_collapse, s.first_dt, place(s, worst[0].first)),
           "dt_collapse"};
 }
 
@@ -314,8 +355,10 @@ std::optional<std::string> energy_growth(Simulation& s) {
   const double scale = energy_scale(s);
   if (!(excess > s.scene->monitor.energy_tolerance * scale)) s.ledger.balanced_step = s.step;
   if (s.step - s.ledger.balanced_step < settling_steps) return std::nullopt;
-  return fmt::format("energy grew: at step {}, t = {:.6e} s, it exceeds initial energy and external work by {:.3g} of them (monitor.energy_tolerance = {:g}); lower time.cfl", s.step,
-                     s.t, excess / scale, s.scene->monitor.energy_tolerance);
+  return fmt::format(
+      "energy grew: at step {}, t = {:.6e} s, it exceeds initial energy and external work by {:.3g} of them "
+      "(monitor.energy_tolerance = {:g}); lower time.cfl",
+      s.step, s.t, excess / scale, s.scene->monitor.energy_tolerance);
 }
 
 }  // namespace nanson

@@ -7,31 +7,31 @@
 namespace nanson {
 
 struct Energies {
-  double kinetic = 0, strain = 0;         // [J]
+  double kinetic = 0, strain = 0;  // [J]
 };
 struct Momenta {
-  Vec3 linear{}, angular{};               // [kg m/s], [kg m^2/s] about the origin
-  double linear_scale = 0, angular_scale = 0;   // sum Omega |p|, sum Omega |x| |p|
+  Vec3 linear{}, angular{};                    // [kg m/s], [kg m^2/s] about the origin
+  double linear_scale = 0, angular_scale = 0;  // sum Omega |p|, sum Omega |x| |p|
 };
 struct Extrema {
-  double min_detF = 0, max_detF = 0, min_J = 0, max_J = 0;   // [-]
-  double max_speed = 0;                                      // [m/s]
-  double max_plastic_strain = 0;                             // [-] hencky_j2
+  double min_detF = 0, max_detF = 0, min_J = 0, max_J = 0;  // [-]
+  double max_speed = 0;                                     // [m/s]
+  double max_plastic_strain = 0;                            // [-] hencky_j2
 };
 
 /// Power that the stabilisation takes out of the edges (method, section 3): negative where it feeds one.
 struct EntropyProduction {
-  double least = 0, total = 0;            // [W] of an edge, of all
-  double negative_share = 0;              // [-] of the edges
+  double least = 0, total = 0;  // [W] of an edge, of all
+  double negative_share = 0;    // [-] of the edges
 };
 /// Largest components.
 struct Involutions {
-  double F = 0;                           // [-] change of F - grad x since the start, which is O(h^2) when F(0) is analytic
-  double H = 0, J = 0;                    // [-] H - cof F (pFHJ); J - det F (pFJ, pFHJ)
+  double F = 0;         // [-] change of F - grad x since the start, which is O(h^2) when F(0) is analytic
+  double H = 0, J = 0;  // [-] H - cof F (pFHJ); J - det F (pFJ, pFHJ)
 };
 struct Geometry {
-  double min_tet_ratio = 1;                             // [-] smallest deformed over undeformed volume of a tet
-  double min_detF_over_J = 1, max_detF_over_J = 1;    // [-] pFJ, pFHJ
+  double min_tet_ratio = 1;                         // [-] smallest deformed over undeformed volume of a tet
+  double min_detF_over_J = 1, max_detF_over_J = 1;  // [-] pFJ, pFHJ
 };
 
 Energies energies(Simulation& s);
@@ -52,7 +52,7 @@ std::optional<std::string> geometry_warning(const Simulation& s);
 double energy_closure(const Simulation& s, const Energies& e);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
-double linear_momentum_drift(Simulation& s);     // NaN where it is not known (initial.field = "manufactured")
+double linear_momentum_drift(Simulation& s);  // NaN where it is not known (initial.field = "manufactured")
 /// |L - L(0) - angular impulse| / sum Omega |x| |p|; nothing under ssp_rk3 when supports or loads exert a torque: its exact arms are known for TVD-RK2 only.
 std::optional<double> angular_momentum_drift(Simulation& s);
 

@@ -10,14 +10,19 @@ namespace {
 enum Sum { total, negative, edges, sums, least = sums };
 
 /// The edge loop over one edge at a time: a part without nodes whose only edge it is.
-void add_part(const Simulation& s, const PartFunctions& functions, const Rows& rows, const Part& part, const Scratch& scratch, double* out) {
+void add_part(const Simulation& s, const PartFunctions& functions, const Rows& rows, const Part& part,
+              const Scratch& scratch, double* out) {
   const EdgeArrays arrays = flux_edges(s);
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
     if (arrays.b[e] < arrays.a[e]) continue;  // the other part's copy counts
     Part one{};
-    one.edge_begin = e, one.edge_end = e + 1;
-    const double power = functions.edge_flux(one, arrays, flux_corners(s), s.order.lists(), rows, s.coefficients, scratch);
-    out[total] += power, out[negative] += power < 0, out[edges] += 1;
+    one.edge_begin = e;
+    one.edge_end = e + 1;
+    const double power = functions.edge_flux(one, arrays, flux_corners(s), s.order.lists(), rows, s.coefficients,
+                                             scratch);
+    out[total] += power;
+    out[negative] += power < 0;
+    out[edges] += 1;
     out[least] = std::min(out[least], power);
   }
 }
@@ -26,14 +31,18 @@ void add_part(const Simulation& s, const PartFunctions& functions, const Rows& r
 
 EntropyProduction entropy_production(Simulation& s) {
   const Rows rows = stage_rows(s.state, 0, 0);
-  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, s.mixture.materials(), true,
-                                                      s.state.has_lagged_correction);  // a correction that the next stage takes stays as it is
+  const PartFunctions functions = find_part_functions(
+      s.scene->physics, s.scene->material, s.mixture.materials(), true,
+      s.state.has_lagged_correction);  // a correction that the next stage takes stays as it is
   find_current_areas(s, rows.U_stage);
-  if (s.scene->physics.reconstruction != Reconstruction::constant) {  // of the present state; the next stage computes them again
+  if (s.scene->physics.reconstruction
+      != Reconstruction::constant) {  // of the present state; the next stage computes them again
     const auto arrays = s.order.edges();
     const auto corners = s.order.corners();
     const auto lists = s.order.lists();
-    for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[static_cast<std::size_t>(p)], arrays, corners, lists, rows, s.coefficients); });
+    for_parts(s, [&](int p, Scratch) {
+      functions.gradient(s.order.parts[static_cast<std::size_t>(p)], arrays, corners, lists, rows, s.coefficients);
+    });
   }
   const auto sum = sums_over_parts<sums>(s, [&](int p, double* out) {
     out[least] = 1e300;

@@ -8,9 +8,11 @@
 namespace nanson {
 namespace {
 
-constexpr double parted = 2;       // [-] det F/J, or its inverse, from which on a run warns
+constexpr double parted = 2;  // [-] det F/J, or its inverse, from which on a run warns
 
-const double* U_row(const Simulation& s, int node) { return &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])]; }
+const double* U_row(const Simulation& s, int node) {
+  return &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
+}
 
 double deformed_over_undeformed(const Simulation& s, const std::array<int, 4>& tet) {
   Vec3 X[4], x[4];
@@ -34,13 +36,16 @@ Geometry geometry(const Simulation& s) {
   double least_tet = 1e300;
   const int tets = static_cast<int>(s.mesh->tets.size());
 #pragma omp parallel for schedule(static) num_threads(s.threads) reduction(min : least_tet)
-  for (int t = 0; t < tets; ++t) least_tet = std::min(least_tet, deformed_over_undeformed(s, s.mesh->tets[static_cast<std::size_t>(t)]));
+  for (int t = 0; t < tets; ++t)
+    least_tet = std::min(least_tet, deformed_over_undeformed(s, s.mesh->tets[static_cast<std::size_t>(t)]));
   g.min_tet_ratio = least_tet;
   if (!evolves_J(s.scene->physics.formulation)) return g;
-  g.min_detF_over_J = 1e300, g.max_detF_over_J = -1e300;
+  g.min_detF_over_J = 1e300;
+  g.max_detF_over_J = -1e300;
   for (int n = 0; n < s.order.nodes; ++n) {
     const double ratio = detF_over_J(U_row(s, n));
-    g.min_detF_over_J = std::min(g.min_detF_over_J, ratio), g.max_detF_over_J = std::max(g.max_detF_over_J, ratio);
+    g.min_detF_over_J = std::min(g.min_detF_over_J, ratio);
+    g.max_detF_over_J = std::max(g.max_detF_over_J, ratio);
   }
   return g;
 }
@@ -48,8 +53,10 @@ Geometry geometry(const Simulation& s) {
 std::optional<std::string> geometry_warning(const Simulation& s) {
   const Geometry g = geometry(s);
   if (g.min_detF_over_J >= 1 / parted && g.max_detF_over_J <= parted) return std::nullopt;
-  return fmt::format("J and det F part: at step {}, t = {:.6e} s, det F/J ranges from {:.3g} to {:.3g}; a finer mesh, physics.parting or formulation = \"pF\" may help", s.step, s.t,
-                     g.min_detF_over_J, g.max_detF_over_J);
+  return fmt::format(
+      "J and det F part: at step {}, t = {:.6e} s, det F/J ranges from {:.3g} to {:.3g}; a finer mesh, physics.parting "
+      "or formulation = \"pF\" may help",
+      s.step, s.t, g.min_detF_over_J, g.max_detF_over_J);
 }
 
 }  // namespace nanson

@@ -23,12 +23,14 @@ std::vector<double> gradient_mismatch(Simulation& s) {
   for (std::size_t r = 0; r < rows_of; ++r)
     for (std::size_t i = 0; i < 3; ++i) x[row::W * r + i] = s.state.U[0][row::U * r + 4 * (i + 1) + 3];
   Rows rows = stage_rows(s.state, 0, 0);
-  rows.W = x.data(), rows.G = G.data();
+  rows.W = x.data();
+  rows.G = G.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
   for_parts(s, [&](int p, Scratch) {
-    gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists, rows, s.coefficients);
+    gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists,
+                                                   rows, s.coefficients);
   });
   std::vector<double> mismatch(9 * rows_of, 0.0);
   for (std::size_t r = 0; r < rows_of; ++r)
@@ -40,7 +42,8 @@ std::vector<double> gradient_mismatch(Simulation& s) {
 Involutions involutions(Simulation& s) {
   Involutions out;
   const std::vector<double> mismatch = gradient_mismatch(s);
-  for (std::size_t i = 0; i < mismatch.size(); ++i) out.F = std::max(out.F, std::abs(mismatch[i] - s.initial_mismatch[i]));
+  for (std::size_t i = 0; i < mismatch.size(); ++i)
+    out.F = std::max(out.F, std::abs(mismatch[i] - s.initial_mismatch[i]));
   if (!evolves_J(s.scene->physics.formulation)) return out;
   for (std::size_t r = 0; r < s.order.node_of.size(); ++r) {
     if (s.order.node_of[r] < 0) continue;

@@ -20,25 +20,32 @@ inline constexpr int streaming_nodes = 4096;
 inline constexpr std::size_t edge_padding = 512;
 
 struct Order {
-  int nodes = 0;                            // of the mesh
-  int rows = 0;                             // nodes and padding
-  std::vector<int> row_of;                  // mesh node -> row
-  std::vector<int> node_of;                 // row -> mesh node, -1 for padding
-  std::vector<Part> parts;                  // constraint ranges are filled by engine/boundary
-  bool metis_failed = false;                // parts of one RCM numbering were cut instead
-  double metis_s = 0;                       // [s] that METIS took
+  int nodes = 0;              // of the mesh
+  int rows = 0;               // nodes and padding
+  std::vector<int> row_of;    // mesh node -> row
+  std::vector<int> node_of;   // row -> mesh node, -1 for padding
+  std::vector<Part> parts;    // constraint ranges are filled by engine/boundary
+  bool metis_failed = false;  // parts of one RCM numbering were cut instead
+  double metis_s = 0;         // [s] that METIS took
 
-  Aligned<std::int32_t> a, b;               // edges
+  Aligned<std::int32_t> a, b;  // edges
   Aligned<double> C[3];
-  Aligned<double> rho_cp, rho_cs;           // several materials only, filled in by engine/mixture
-  Aligned<std::int32_t> out, in, in_edges, in_nodes, corner;   // node lists
+  Aligned<double> rho_cp, rho_cs;                             // several materials only, filled in by engine/mixture
+  Aligned<std::int32_t> out, in, in_edges, in_nodes, corner;  // node lists
   Aligned<std::int32_t> corner_b, corner_c, corner_load;
   Aligned<double> corner_C[3];
-  std::vector<int> corner_face;             // corner -> index into Mesh::faces
+  std::vector<int> corner_face;                          // corner -> index into Mesh::faces
   int most_nodes = 0, most_edges = 0, most_corners = 0;  // of a part
 
-  EdgeArrays edges() const { return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, {}, rho_cp.data(), rho_cs.data()}; }
-  CornerArrays corners() const { return {corner_b.data(), corner_c.data(), {corner_C[0].data(), corner_C[1].data(), corner_C[2].data()}, corner_load.data()}; }
+  EdgeArrays edges() const {
+    return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, {}, rho_cp.data(), rho_cs.data()};
+  }
+  CornerArrays corners() const {
+    return {corner_b.data(),
+            corner_c.data(),
+            {corner_C[0].data(), corner_C[1].data(), corner_C[2].data()},
+            corner_load.data()};
+  }
   NodeLists lists() const { return {out.data(), in.data(), in_edges.data(), in_nodes.data(), corner.data()}; }
 };
 

@@ -12,14 +12,16 @@ namespace nanson {
 
 /// Doubles of the buffers of one thread, for the largest part and any scheme; at least a huge page: on small pages, scattered in memory, they push the part's rows out of L2.
 inline std::size_t part_scratch(const Order& o) {
-  const std::size_t used = static_cast<std::size_t>((8 + 1) * (o.most_edges + 8) + 4 * o.most_corners + (4 + 12) * o.most_nodes);
+  const std::size_t used = static_cast<std::size_t>((8 + 1) * (o.most_edges + 8) + 4 * o.most_corners
+                                                    + (4 + 12) * o.most_nodes);
   return std::max(used, CacheLineAllocator<double>::huge_page / sizeof(double));
 }
 
 inline Scratch scratch_of(Simulation& s, int thread) {
   double* p = s.scratch[static_cast<std::size_t>(thread)].data();
   const bool corrected = s.scene->physics.flux_correction != FluxCorrection::none;
-  const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.order.most_edges + 8), corner = 4 * static_cast<std::ptrdiff_t>(s.order.most_corners),
+  const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.order.most_edges + 8),
+                       corner = 4 * static_cast<std::ptrdiff_t>(s.order.most_corners),
                        force = 4 * static_cast<std::ptrdiff_t>(s.order.most_nodes), dG = 3 * force;
   return {p, p + edge, p + edge + corner, p + edge + corner + force, p + edge + corner + force + dG};
 }
@@ -49,14 +51,18 @@ inline int nodes_of(const Simulation& s, const Part& part) {
 inline bool is_padding(const Simulation& s, int n) { return s.order.node_of[static_cast<std::size_t>(n)] < 0; }
 
 /// Stress sweep of a part into rows.W_new, PH_new; the edge buffer is free by then.
-inline PartReport stress_of_part(const Simulation& s, int p, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+inline PartReport stress_of_part(const Simulation& s, int p, const Rows& rows, const Coefficients& k,
+                                 const Scratch& scratch) {
   const double* length = s.state.step_length.data();
   if (s.mixture.empty()) return s.functions.stress(s.order.parts[static_cast<std::size_t>(p)], rows, k, length);
   PartReport report;
-  for (int i = s.mixture.first_run[static_cast<std::size_t>(p)]; i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i) {
-    const PartReport run = mixed_stress(s.mixture, s.mixture.runs[static_cast<std::size_t>(i)], rows, k, length, scratch.edge);
+  for (int i = s.mixture.first_run[static_cast<std::size_t>(p)];
+       i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i) {
+    const PartReport run = mixed_stress(s.mixture, s.mixture.runs[static_cast<std::size_t>(i)], rows, k, length,
+                                        scratch.edge);
     report.fastest = run.fastest > report.fastest ? run.fastest : report.fastest;
-    report.broken = report.broken || run.broken, report.plastic_work += run.plastic_work;
+    report.broken = report.broken || run.broken;
+    report.plastic_work += run.plastic_work;
   }
   return report;
 }

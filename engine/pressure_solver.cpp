@@ -24,13 +24,17 @@ struct Sweeps {
 
   double mean(double sum) const { return closed ? sum / total_volume : 0.0; }
   void force(double keep, double step) {
-    for_parts(s, [&](int p, Scratch) { pressure_force_part(s.projection.parts[p], edges, corners, lists, rows, k, keep, step); });
+    for_parts(s, [&](int p, Scratch) {
+      pressure_force_part(s.projection.parts[p], edges, corners, lists, rows, k, keep, step);
+    });
   }
   Three apply() {
     return sum_three(s, [&](const Part& part) { return pressure_operator_part(part, edges, corners, lists, rows, k); });
   }
   Three step(double alpha, double mean_of_Kd) {
-    return sum_three(s, [&](const Part& part) { return pressure_step_part(part, rows, alpha, mean_of_Kd, s.state.reactions.data()); });
+    return sum_three(s, [&](const Part& part) {
+      return pressure_step_part(part, rows, alpha, mean_of_Kd, s.state.reactions.data());
+    });
   }
   void direction(double mean_of_z, double beta) {
     for_parts(s, [&](int p, Scratch) { pressure_direction_part(s.projection.parts[p], rows, mean_of_z, beta); });
@@ -48,7 +52,8 @@ PressureSolve conjugate_gradients(Sweeps& sweep, double norm, double goal, int m
     if (!(Kd.s[0] > 0)) break;
     const Three next = sweep.step(z.s[1] / Kd.s[0], sweep.mean(Kd.s[1]));
     sweep.direction(sweep.mean(next.s[2]), next.s[1] / z.s[1]);
-    z = next, out.norm = std::sqrt(z.s[0]);
+    z = next;
+    out.norm = std::sqrt(z.s[0]);
   }
   return out;
 }
@@ -57,13 +62,18 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
   Simulation& s = sweep.s;
   Projection& p = s.projection;
   const double dt = sweep.k.dt, speed = length / dt, gamma = sweep.k.rho * speed * speed;
-  for_parts(s, [&](int i, Scratch) { s.part_sums[i] = pseudo_step_part(p.parts[i], sweep.edges, sweep.rows, 1 / speed); });
+  for_parts(s,
+            [&](int i, Scratch) { s.part_sums[i] = pseudo_step_part(p.parts[i], sweep.edges, sweep.rows, 1 / speed); });
   const double dtau = *std::min_element(s.part_sums.begin(), s.part_sums.end()), keep = 1 / (1 + dtau / dt);
-  std::fill(p.d.begin(), p.d.end(), 0.0), std::fill(p.Kd.begin(), p.Kd.end(), 0.0), std::fill(p.V.begin(), p.V.end(), 0.0), std::fill(p.removed.begin(), p.removed.end(), 0.0);
+  std::fill(p.d.begin(), p.d.end(), 0.0);
+  std::fill(p.Kd.begin(), p.Kd.end(), 0.0);
+  std::fill(p.V.begin(), p.V.end(), 0.0);
+  std::fill(p.removed.begin(), p.removed.end(), 0.0);
   PressureSolve out{0, norm};
   double mean = 0, sum = 0;
   while (out.norm > goal && out.iterations < most) {
-    sum = sum_over_parts(s, [&](int i) { return pseudo_pressure_part(p.parts[i], sweep.rows, sweep.k, gamma * dtau, mean); });
+    sum = sum_over_parts(
+        s, [&](int i) { return pseudo_pressure_part(p.parts[i], sweep.rows, sweep.k, gamma * dtau, mean); });
     sweep.force(keep, keep * dtau);
     mean = sweep.mean(sweep.apply().s[1]);
     ++out.iterations;
@@ -80,15 +90,21 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
 ProjectionRows projection_rows(Simulation& s, int from, int to) {
   State& u = s.state;
   Projection& p = s.projection;
-  return {u.X.data(), u.W[u.now].data(), u.PH[u.now].data(), u.G.data(), u.step_length.data(), s.boundary.constraints.data(), p.held.data(), p.E.data(), p.B.data(),
-          u.U[1].data(), p.H.data(), p.volume[from].data(), p.taken[from].data(), p.volume[to].data(), p.taken[to].data(), p.fixed.data(), p.lag.data(),
-          p.inverse_diagonal.data(), p.weight_sum.data(), p.R.data(), p.d.data(), p.V.data(), p.Kd.data(), p.removed.data()};
+  return {u.X.data(),           u.W[u.now].data(),    u.PH[u.now].data(),
+          u.G.data(),           u.step_length.data(), s.boundary.constraints.data(),
+          p.held.data(),        p.E.data(),           p.B.data(),
+          u.U[1].data(),        p.H.data(),           p.volume[from].data(),
+          p.taken[from].data(), p.volume[to].data(),  p.taken[to].data(),
+          p.fixed.data(),       p.lag.data(),         p.inverse_diagonal.data(),
+          p.weight_sum.data(),  p.R.data(),           p.d.data(),
+          p.V.data(),           p.Kd.data(),          p.removed.data()};
 }
 
 PressureSolve solve_pressure(Simulation& s, const ProjectionRows& rows, double norm, double goal, int most) {
   Sweeps sweep{s, rows};
   const ProjectionSpec& spec = s.scene->projection;
-  return spec.solver == ProjectionSolver::cg ? conjugate_gradients(sweep, norm, goal, most) : pseudo_time(sweep, spec.length_scale, norm, goal, most);
+  return spec.solver == ProjectionSolver::cg ? conjugate_gradients(sweep, norm, goal, most)
+                                             : pseudo_time(sweep, spec.length_scale, norm, goal, most);
 }
 
 }  // namespace nanson

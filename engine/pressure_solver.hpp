@@ -6,7 +6,7 @@ namespace nanson {
 
 struct PressureSolve {
   int iterations = 0;
-  double norm = 0;              // sqrt(sum R^2/Omega) of the linear residual that is left
+  double norm = 0;  // sqrt(sum R^2/Omega) of the linear residual that is left
 };
 
 /// Rows of the projection of a stage that starts from `from` and ends in `to` (0 or 1).

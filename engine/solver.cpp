@@ -28,13 +28,20 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
   for (const LoadedFace& f : s.boundary.loaded) {
     const double factor = value_at(s.boundary.conditions[static_cast<std::size_t>(f.condition)].time, t);
     Vec3 force = f.corner_force;
-    if (f.kind == BoundaryKind::pressure) {  // -p a/3, a = (x_b - x_a) x (x_c - x_a)/2: the resultant of a closed surface is exactly zero
+    if (f.kind
+        == BoundaryKind::
+            pressure) {  // -p a/3, a = (x_b - x_a) x (x_c - x_a)/2: the resultant of a closed surface is exactly zero
       double e[2][3];
       for (int k = 0; k < 3; ++k)
-        for (int j = 0; j < 2; ++j) e[j][k] = U[row::U * f.node[j + 1] + 4 * (k + 1) + 3] - U[row::U * f.node[0] + 4 * (k + 1) + 3];
-      for (int k = 0; k < 3; ++k) force[k] = -f.pressure / 6 * (e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3]);
+        for (int j = 0; j < 2; ++j)
+          e[j][k] = U[row::U * f.node[j + 1] + 4 * (k + 1) + 3] - U[row::U * f.node[0] + 4 * (k + 1) + 3];
+      for (int k = 0; k < 3; ++k)
+        force[k] = -f.pressure / 6 * (e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3]);
     }
-    for (int k = 0; k < 3; ++k) s.state.loads[static_cast<std::size_t>(4 * f.slot + k)] += factor * force[k], sum[k] += 3 * factor * force[k];
+    for (int k = 0; k < 3; ++k) {
+      s.state.loads[static_cast<std::size_t>(4 * f.slot + k)] += factor * force[k];
+      sum[k] += 3 * factor * force[k];
+    }
   }
   return sum;
 }
@@ -50,18 +57,24 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
   const bool projected = s.scene->physics.formulation == Formulation::pFp;
   const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
   Coefficients k = s.coefficients;
-  k.old_weight = rk.old, k.stage_weight = rk.stage, k.dt = rk.stage * s.dt, k.commits = number == stages - 1;
+  k.old_weight = rk.old;
+  k.stage_weight = rk.stage;
+  k.dt = rk.stage * s.dt;
+  k.commits = number == stages - 1;
   k.takes_lagged = number == 0 && u.has_lagged_correction;
-  k.leaves_lagged = s.scene->physics.flux_correction != FluxCorrection::none && stages == 2 && number == 1;  // at t + dt, as the next step's first stage
+  k.leaves_lagged = s.scene->physics.flux_correction != FluxCorrection::none && stages == 2
+                    && number == 1;  // at t + dt, as the next step's first stage
   const PartFunctions& functions = k.takes_lagged ? s.lagged_functions : s.functions;
   Rows rows = stage_rows(u, from, to);
-  rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
+  rows.dJ = s.current.dJ.data();
+  rows.rho = s.mixture.rho.data();
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
   const EdgeArrays flux_edges = nanson::flux_edges(s);
   const CornerArrays flux_corners = nanson::flux_corners(s);
-  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant || projected;  // the projection needs neighbours' pressure gradients
+  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant
+                      || projected;  // the projection needs neighbours' pressure gradients
   const bool keeps = s.scene->physics.keep_angular_momentum;
   const double t = s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt);
   const double* arms = u.U[0].data();  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
@@ -70,11 +83,16 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
     const Vec3 sum = compute_loads(s, rows.U_stage, t);
     for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
   }
-  if (has_current_areas(s.scene->physics.description)) s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
-  if (linear) s.clock.time("gradient", [&] { for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); }); });
+  if (has_current_areas(s.scene->physics.description))
+    s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
+  if (linear)
+    s.clock.time("gradient", [&] {
+      for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); });
+    });
   if (functions.corrects_stress) {  // what the edges read and what the stress overwrites change places
     std::swap(u.PH[0], u.PH[1]);
-    rows.PH = u.PH[u.now].data(), rows.PH_new = u.PH[1 - u.now].data();
+    rows.PH = u.PH[u.now].data();
+    rows.PH_new = u.PH[1 - u.now].data();
   }
   s.clock.time("flux_update_stress", [&] {
     for_parts(s, [&](int p, Scratch scratch) {
@@ -85,15 +103,18 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
         functions.gradient(part, edges, corners, lists, mine, k);
       }
       s.part_sums[p] = functions.edge_flux(part, flux_edges, flux_corners, lists, mine, k, scratch);
-      functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
-      if (!s.manufactured.waves.empty()) add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
+      functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(),
+                                  scratch);
+      if (!s.manufactured.waves.empty())
+        add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
       if (!projected) s.reports[p] = stress_of_part(s, p, mine, k, scratch);
     });
   });
   if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
   if (keeps && !broken(s))
-    s.clock.time("keep_angular_momentum", [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
+    s.clock.time("keep_angular_momentum",
+                 [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
   const std::string failure = projected ? project_stage(s, number) : std::string();
   book_stage(s, arms, rk.mean, number == 0);
   if (!projected) u.now = 1 - u.now;
@@ -105,7 +126,9 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stag
 void prescribe(Simulation& s, std::vector<double>& acceleration) {
   for (std::size_t i = 0; i < acceleration.size(); ++i) {
     const TimeFunction& f = s.boundary.conditions[i].time;
-    acceleration[i] = s.boundary.conditions[i].kind == BoundaryKind::velocity ? (value_at(f, s.t + s.dt) - value_at(f, s.t)) / s.dt : 0.0;
+    acceleration[i] = s.boundary.conditions[i].kind == BoundaryKind::velocity
+                          ? (value_at(f, s.t + s.dt) - value_at(f, s.t)) / s.dt
+                          : 0.0;
   }
 }
 
@@ -120,7 +143,8 @@ double next_step(const Simulation& s) {
 }
 
 /// Whether to go on after a step: done (so far) | breakdown | stopped, with the reason.
-std::string verdict(Simulation& s, double wall, const std::function<std::string()>& asked_to_stop, std::string& reason) {
+std::string verdict(Simulation& s, double wall, const std::function<std::string()>& asked_to_stop,
+                    std::string& reason) {
   const TimeSpec& time = s.scene->time;
   const double allowed = allowed_step(s);
   if (!(allowed >= time.dt_collapse * s.first_dt)) {
@@ -137,11 +161,19 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
         return "breakdown";
       }
     }
-  if (s.scene->monitor.geometry && s.warning.empty() && s.step % s.scene->output.history_every == 0) s.warning = geometry_warning(s).value_or("");
+  if (s.scene->monitor.geometry && s.warning.empty() && s.step % s.scene->output.history_every == 0)
+    s.warning = geometry_warning(s).value_or("");
   if (s.t >= time.end) return "done";
-  if (time.max_steps > 0 && s.step >= time.max_steps) reason = "time.max_steps reached", s.stopped_by = "max_steps";
-  else if (time.max_wall_s > 0 && wall >= time.max_wall_s) reason = "time.max_wall_s reached", s.stopped_by = "max_wall_s";
-  else if (asked_to_stop) reason = asked_to_stop(), s.stopped_by = reason.empty() ? "" : "signal";
+  if (time.max_steps > 0 && s.step >= time.max_steps) {
+    reason = "time.max_steps reached";
+    s.stopped_by = "max_steps";
+  } else if (time.max_wall_s > 0 && wall >= time.max_wall_s) {
+    reason = "time.max_wall_s reached";
+    s.stopped_by = "max_wall_s";
+  } else if (asked_to_stop) {
+    reason = asked_to_stop();
+    s.stopped_by = reason.empty() ? "" : "signal";
+  }
   return reason.empty() ? "done" : "stopped";
 }
 
@@ -151,20 +183,26 @@ void advance(Simulation& s) {
   prescribe(s, s.acceleration);
   s.coefficients.acceleration = s.acceleration.data();
   const bool rk2 = s.scene->time.integrator == Integrator::tvd_rk2;
-  const RungeKuttaStage* stages = s.scene->physics.formulation == Formulation::pFp ? projected_rk2 : rk2 ? tvd_rk2 : ssp_rk3;
+  const RungeKuttaStage* stages = s.scene->physics.formulation == Formulation::pFp ? projected_rk2
+                                  : rk2                                            ? tvd_rk2
+                                                                                   : ssp_rk3;
   const int count = rk2 ? 2 : 3;
   for (int i = 0; i < count; ++i) {
     const std::string failure = stage(s, stages[i], i, count);
     const bool stop = !failure.empty() && s.scene->projection.on_limit == OnLimit::stop;
     if (!failure.empty() && !stop) s.warning = failure;
     if (broken(s) || stop) {
-      if (i + 1 < count) s.state.U[0] = s.state.U[1], s.state.H[0] = s.state.H[1];
+      if (i + 1 < count) {
+        s.state.U[0] = s.state.U[1];
+        s.state.H[0] = s.state.H[1];
+      }
       s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure, "iteration_limit"};
       break;
     }
   }
   if (s.scene->monitor.energy) book_plastic_work(s);
-  s.t += s.dt, ++s.step;
+  s.t += s.dt;
+  ++s.step;
 }
 
 double allowed_step(const Simulation& s) {
@@ -175,31 +213,43 @@ double allowed_step(const Simulation& s) {
 
 std::string run(Simulation& s, const Observer& observer, std::string& reason) {
   const Scene& scene = *s.scene;
-  const auto tell = [&](const auto& what) { if (what) what(s); };
+  const auto tell = [&](const auto& what) {
+    if (what) what(s);
+  };
   const double wall = wall_seconds(), cpu = cpu_seconds();
   double next_frame = scene.output.every;
   long last_history = 0, last_frame = 0;
   std::string status = "done";
-  tell(observer.on_history), tell(observer.on_frame);
+  tell(observer.on_history);
+  tell(observer.on_frame);
   while (status == "done" && s.t < scene.time.end) {
     s.dt = next_step(s);
     const bool last = s.dt == scene.time.end - s.t;
     if (s.step == 0) s.first_dt = s.dt_min = s.dt_max = s.dt;
     advance(s);
     if (last) s.t = scene.time.end;
-    s.dt_min = std::min(s.dt_min, s.dt), s.dt_max = std::max(s.dt_max, s.dt);
-    if (s.breakdown) status = "breakdown", reason = s.breakdown->text;
-    else status = verdict(s, wall_seconds() - wall, observer.stop, reason);
-    s.wall_s = wall_seconds() - wall, s.cpu_s = cpu_seconds() - cpu;
+    s.dt_min = std::min(s.dt_min, s.dt);
+    s.dt_max = std::max(s.dt_max, s.dt);
+    if (s.breakdown) {
+      status = "breakdown";
+      reason = s.breakdown->text;
+    } else status = verdict(s, wall_seconds() - wall, observer.stop, reason);
+    s.wall_s = wall_seconds() - wall;
+    s.cpu_s = cpu_seconds() - cpu;
     tell(observer.on_step);
     if (status == "done" && s.t >= scene.time.end) break;
-    if (status == "done" && s.step % scene.output.history_every == 0) tell(observer.on_history), last_history = s.step;
+    if (status == "done" && s.step % scene.output.history_every == 0) {
+      tell(observer.on_history);
+      last_history = s.step;
+    }
     if (status == "done" && scene.output.every > 0 && s.t >= next_frame) {
-      tell(observer.on_frame), last_frame = s.step;
+      tell(observer.on_frame);
+      last_frame = s.step;
       while (next_frame <= s.t) next_frame += scene.output.every;
     }
   }
-  s.wall_s = wall_seconds() - wall, s.cpu_s = cpu_seconds() - cpu;
+  s.wall_s = wall_seconds() - wall;
+  s.cpu_s = cpu_seconds() - cpu;
   if (last_history < s.step) tell(observer.on_history);
   if (last_frame < s.step) tell(observer.on_frame);
   return status;

@@ -1,6 +1,6 @@
 // Work of the steps from the traits, over the time of the sweeps.
-#include "engine/counted.hpp"
 #include "engine/throughput.hpp"
+#include "engine/counted.hpp"
 #include "engine/work.hpp"
 
 namespace nanson {
@@ -14,11 +14,13 @@ double flops(Formulation f, const MaterialConstants& m) {
 }
 template <Law law, Volumetric volumetric>
 double flops(const MaterialSpec& s, Formulation f, const MaterialConstants& m) {
-  return s.isochoric == Isochoric::J ? flops<law, volumetric, Isochoric::J>(f, m) : flops<law, volumetric, Isochoric::F>(f, m);
+  return s.isochoric == Isochoric::J ? flops<law, volumetric, Isochoric::J>(f, m)
+                                     : flops<law, volumetric, Isochoric::F>(f, m);
 }
 template <Law law>
 double flops(const MaterialSpec& s, Formulation f, const MaterialConstants& m) {
-  return s.volumetric == Volumetric::barrier ? flops<law, Volumetric::barrier>(s, f, m) : flops<law, Volumetric::quadratic>(s, f, m);
+  return s.volumetric == Volumetric::barrier ? flops<law, Volumetric::barrier>(s, f, m)
+                                             : flops<law, Volumetric::quadratic>(s, f, m);
 }
 
 /// Of one evaluation of the scene's law; none for plasticity, whose work depends on what flows.
@@ -34,17 +36,22 @@ std::optional<double> law_flops(const MaterialSpec& s, Formulation f) {
 
 std::optional<Throughput> throughput(const Simulation& s, double update_bandwidth) {
   const PhysicsSpec& p = s.scene->physics;
-  const bool counted = p.formulation != Formulation::pFp && p.description == Description::total && s.mixture.empty() && s.manufactured.waves.empty() &&
-                       p.reconstruction != Reconstruction::constant && !p.keep_angular_momentum && p.parting == 0;
+  const bool counted = p.formulation != Formulation::pFp && p.description == Description::total && s.mixture.empty()
+                       && s.manufactured.waves.empty() && p.reconstruction != Reconstruction::constant
+                       && !p.keep_angular_momentum && p.parting == 0;
   const auto law = !counted ? std::nullopt : law_flops(s.scene->material, p.formulation);
   double seconds = 0;
   for (const SweepTime& sweep : s.clock.sweeps)
     if (sweep.sweep == "gradient" || sweep.sweep == "flux_update_stress") seconds += sweep.seconds;
   if (!law || s.step == 0 || !(seconds > 0)) return std::nullopt;
-  const Work step = step_work(p, Sizes(s.order), *law, s.scene->time.integrator == Integrator::tvd_rk2 ? 2 : 3, s.scene->monitor.energy);
+  const Work step = step_work(p, Sizes(s.order), *law, s.scene->time.integrator == Integrator::tvd_rk2 ? 2 : 3,
+                              s.scene->monitor.energy);
   const double nodes = s.order.nodes, steps = static_cast<double>(s.step), rate = steps * step.bytes / seconds;
   Throughput out{step.bytes / nodes, step.flops / nodes, 1e-9 * rate, 1e-9 * steps * step.flops / seconds, {}, {}};
-  if (update_bandwidth > 0) out.update_GB_s = 1e-9 * update_bandwidth, out.bandwidth_share = rate / update_bandwidth;
+  if (update_bandwidth > 0) {
+    out.update_GB_s = 1e-9 * update_bandwidth;
+    out.bandwidth_share = rate / update_bandwidth;
+  }
   return out;
 }
 

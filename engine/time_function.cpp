@@ -19,7 +19,8 @@ double value_at(const TimeFunction& f, double t) {
       return 4 * g / ((1 + g) * (1 + g));
     }
     case TimeKind::table: {
-      const auto after = std::upper_bound(f.points.begin(), f.points.end(), t, [](double s, const auto& p) { return s < p.first; });
+      const auto after = std::upper_bound(f.points.begin(), f.points.end(), t,
+                                          [](double s, const auto& p) { return s < p.first; });
       if (after == f.points.begin()) return f.points.front().second;
       if (after == f.points.end()) return f.points.back().second;
       const auto before = after - 1;

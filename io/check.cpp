@@ -17,7 +17,8 @@ void print_limits(const Simulation& s) {
   fmt::print("smallest steps (cfl {:g}, step {}):\n", s.scene->time.cfl, word(s.scene->time.step));
   for (const auto& [node, dt] : limiting_nodes(s, 10)) {
     const Vec3& X = s.mesh->X[static_cast<std::size_t>(node)];
-    fmt::print("  dt {:.4e} s at node {} ({:.6g}, {:.6g}, {:.6g}) m, tets {}\n", dt, node, X[0], X[1], X[2], fmt::join(tets_around(*s.mesh, node), " "));
+    fmt::print("  dt {:.4e} s at node {} ({:.6g}, {:.6g}, {:.6g}) m, tets {}\n", dt, node, X[0], X[1], X[2],
+               fmt::join(tets_around(*s.mesh, node), " "));
   }
 }
 
@@ -27,10 +28,13 @@ void print_materials(const Simulation& s) {
     const MaterialSpec& spec = s.scene->materials[m];
     const MaterialConstants& c = s.mixture.laws[m].constants;
     double volume = 0;
-    for (int n = 0; n < s.order.nodes; ++n) volume += s.volume[static_cast<std::size_t>(n)] * s.mixture.share[m][static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)])];
+    for (int n = 0; n < s.order.nodes; ++n)
+      volume += s.volume[static_cast<std::size_t>(n)]
+                * s.mixture.share[m][static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)])];
     std::string regions;
     for (const Named& region : spec.regions) regions += (regions.empty() ? "" : " ") + region.name;
-    fmt::print("material {}: {}, volume {:.6g} m^3, mass {:.6g} kg, c_p {:.6g} m/s, c_s {:.6g} m/s\n", regions, word(spec.law), volume, volume * c.rho, c.cp, c.cs);
+    fmt::print("material {}: {}, volume {:.6g} m^3, mass {:.6g} kg, c_p {:.6g} m/s, c_s {:.6g} m/s\n", regions,
+               word(spec.law), volume, volume * c.rho, c.cp, c.cs);
   }
 }
 
@@ -53,15 +57,17 @@ int check_scene(const Loaded& loaded, int threads) {
   fmt::print("{}", to_text(mesh_quality(loaded.mesh)));
   Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
   const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);
-  fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass, s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup.total() + loaded.mesh_s);
+  fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass,
+             s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup.total() + loaded.mesh_s);
   print_materials(s);
   print_limits(s);
   const double seconds = timed_step(s);
   if (s.breakdown) fmt::print("the first steps break down: {}\n", s.breakdown->text);
   else
-    fmt::print("about {:.0f} steps of {:.3e} s; {:.0f} ns per node-step on {} threads: {} without output\n", steps, dt, 1e9 * seconds / s.order.nodes, s.threads,
-               duration_text(steps * seconds));
-  fmt::print("memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s), 1e-6 * bytes_per_node(s) * s.order.nodes);
+    fmt::print("about {:.0f} steps of {:.3e} s; {:.0f} ns per node-step on {} threads: {} without output\n", steps, dt,
+               1e9 * seconds / s.order.nodes, s.threads, duration_text(steps * seconds));
+  fmt::print("memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s),
+             1e-6 * bytes_per_node(s) * s.order.nodes);
   for (const std::string& f : loaded.scene.output.fields) fmt::print(" {}", f);
   fmt::print("\nnot paid for by this scene:\n");
   for (const std::string& f : fields_left_out(loaded.scene)) fmt::print("  {}\n", f);

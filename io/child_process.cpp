@@ -26,7 +26,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
 [[noreturn]] void become(char* const* argv, int log, pid_t parent) {
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
-  if (::getppid() != parent) ::_exit(127);         // it died meanwhile
+  if (::getppid() != parent) ::_exit(127);  // it died meanwhile
   ::dup2(log, 1), ::dup2(log, 2);
   ::execv(argv[0], argv);
   const char* why = std::strerror(errno);
@@ -41,25 +41,29 @@ pid_t start(const std::vector<std::string>& command, const std::filesystem::path
   const Descriptor file(log, O_WRONLY | O_CREAT | O_TRUNC);
   if (!file) throw std::runtime_error(fmt::format("{}: could not be created: {}", log.string(), std::strerror(errno)));
   const pid_t parent = ::getpid(), child = ::fork();
-  if (child < 0) throw std::runtime_error(fmt::format("{}: could not be started: {}", command[0], std::strerror(errno)));
+  if (child < 0)
+    throw std::runtime_error(fmt::format("{}: could not be started: {}", command[0], std::strerror(errno)));
   if (child == 0) become(argv.data(), file.get(), parent);
-  ::setpgid(child, child);                         // both sides do it: whoever comes first
+  ::setpgid(child, child);  // both sides do it: whoever comes first
   return child;
 }
 
 }  // namespace
 
-ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& log, const ChildLimits& limits, const std::function<int()>& stop) {
+ChildEnd run_child(const std::vector<std::string>& command, const std::filesystem::path& log, const ChildLimits& limits,
+                   const std::function<int()>& stop) {
   const auto began = Clock::now();
   const pid_t child = start(command, log);
   ChildEnd end;
-  double asked_at = -1;                            // [s] when it was asked to end
+  double asked_at = -1;  // [s] when it was asked to end
   int status = 0;
   for (auto pause = std::chrono::milliseconds(1);; pause = std::min(2 * pause, std::chrono::milliseconds(20))) {
     const pid_t ended = ::waitpid(child, &status, WNOHANG);
     if (ended == child || (ended < 0 && errno != EINTR)) break;
-    if (const int signal = end.stopped == 0 ? stop() : 0; signal != 0) end.stopped = signal, asked_at = since(began), ::kill(child, signal);
-    if (asked_at < 0 && limits.max_wall_s > 0 && since(began) > limits.max_wall_s) end.too_slow = true, asked_at = since(began), ::kill(child, SIGTERM);
+    if (const int signal = end.stopped == 0 ? stop() : 0; signal != 0)
+      end.stopped = signal, asked_at = since(began), ::kill(child, signal);
+    if (asked_at < 0 && limits.max_wall_s > 0 && since(began) > limits.max_wall_s)
+      end.too_slow = true, asked_at = since(began), ::kill(child, SIGTERM);
     if (asked_at >= 0 && since(began) > asked_at + limits.grace_s) ::kill(child, SIGKILL);
     std::this_thread::sleep_for(pause);
   }

@@ -36,17 +36,22 @@ int main(int argc, char** argv) {
   std::string out;
   const auto common = [&](CLI::App* c) {
     c->add_option("SCENE", scene, "scene file (TOML)")->required();
-    c->add_option("--threads", options.threads, "threads; results do not depend on it")->check(CLI::Range(1, 4096))->capture_default_str();
+    c->add_option("--threads", options.threads, "threads; results do not depend on it")
+        ->check(CLI::Range(1, 4096))
+        ->capture_default_str();
     c->add_option("--set", settings, "KEY=VALUE: overrides a key of the scene, e.g. --set time.end=0.01")->take_all();
     return c;
   };
   CLI::App* run = common(app.add_subcommand("run", "run a scene; results in results/SCENE/ or in --out DIR"));
   run->add_option("--out", out, "folder for the results");
   run->add_flag("--quiet", options.quiet, "only errors and warnings");
-  CLI::App* study = app.add_subcommand("study", "run all scenes of a study, one after another; goes on where it stopped; results in results/STUDY/ or in --out DIR");
+  CLI::App* study = app.add_subcommand("study",
+                                       "run all scenes of a study, one after another; goes on where it stopped; "
+                                       "results in results/STUDY/ or in --out DIR");
   study->add_option("STUDY", scene, "study file (TOML)")->required();
   study->add_option("--out", out, "folder for the results");
-  CLI::App* check = common(app.add_subcommand("check", "mesh quality, step, memory and estimated time; writes nothing"));
+  CLI::App* check = common(
+      app.add_subcommand("check", "mesh quality, step, memory and estimated time; writes nothing"));
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -37,8 +37,8 @@ void Progress::update(long step, double t, double dt, std::optional<double> clos
   shown_t_ = t;
   tenth_ = std::min(10, int(10 * share(t)));
   const std::string balance = closure ? fmt::format("  dE/E {:+.1e}", *closure) : "";
-  const std::string line = fmt::format("{:5.1f} %  step {:>8}  t {:.4e} s  dt {:.2e} s{}  ETA {}", 100 * share(t), step, t, dt, balance,
-                                       duration_text((t1_ - t) / rate_));
+  const std::string line = fmt::format("{:5.1f} %  step {:>8}  t {:.4e} s  dt {:.2e} s{}  ETA {}", 100 * share(t), step,
+                                       t, dt, balance, duration_text((t1_ - t) / rate_));
   fmt::print(to_, "{}{}{}", terminal_ ? clear_line : "", line, terminal_ ? "" : "\n");
   std::fflush(to_);
   if (terminal_) line_ = line;

@@ -27,12 +27,16 @@ std::string utc_now() {
 
 }  // namespace
 
-Provenance provenance() { return {build::version, build::commit, build::compiler, build::flags, build::cpu, host_name(), utc_now()}; }
+Provenance provenance() {
+  return {build::version, build::commit, build::compiler, build::flags, build::cpu, host_name(), utc_now()};
+}
 
-std::vector<std::pair<std::string, std::string>> results_attributes(const Provenance& from, int threads, const std::string& scene_text) {
-  return {{"generator", "nanson"}, {"version", from.version}, {"commit", from.commit}, {"compiler", from.compiler},
-          {"flags", from.flags},   {"cpu", from.cpu},         {"host", from.host},     {"threads", std::to_string(threads)},
-          {"start", from.start},   {"scene", scene_text}};
+std::vector<std::pair<std::string, std::string>> results_attributes(const Provenance& from, int threads,
+                                                                    const std::string& scene_text) {
+  return {
+      {"generator", "nanson"}, {"version", from.version}, {"commit", from.commit}, {"compiler", from.compiler},
+      {"flags", from.flags},   {"cpu", from.cpu},         {"host", from.host},     {"threads", std::to_string(threads)},
+      {"start", from.start},   {"scene", scene_text}};
 }
 
 }  // namespace nanson

@@ -19,6 +19,7 @@ struct Provenance {
 Provenance provenance();
 
 /// The attributes of a results file: all of the above, the number of threads and the scene verbatim.
-std::vector<std::pair<std::string, std::string>> results_attributes(const Provenance& from, int threads, const std::string& scene_text);
+std::vector<std::pair<std::string, std::string>> results_attributes(const Provenance& from, int threads,
+                                                                    const std::string& scene_text);
 
 }  // namespace nanson

@@ -9,8 +9,8 @@
 namespace nanson {
 
 struct CsvTable {
-  std::vector<std::string> names;                  // units, " [m]", cut off
-  std::vector<std::vector<std::string>> rows;      // as long as names
+  std::vector<std::string> names;              // units, " [m]", cut off
+  std::vector<std::vector<std::string>> rows;  // as long as names
 
   std::optional<std::size_t> column(std::string_view name) const;
   /// The column as numbers, "nan" included; empty when there is none of that name.

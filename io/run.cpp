@@ -11,45 +11,58 @@
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
 #include "io/results/results_folder.hpp"
-#include "io/signals.hpp"
 #include "io/results/write_fields.hpp"
 #include "io/results/write_history.hpp"
 #include "io/results/write_summary.hpp"
+#include "io/signals.hpp"
 
 namespace nanson {
 namespace {
 
 void say(const RunOptions& options, const std::string& line) {
-  if (!options.quiet) fmt::print("{}\n", line), std::fflush(stdout);
+  if (!options.quiet) {
+    fmt::print("{}\n", line);
+    std::fflush(stdout);
+  }
 }
 
 /// "1.93 s: mesh 0.40, dual 0.35, metis 0.80 (41 %), ..."
 std::string setup_text(const Clock& setup) {
   std::string text;
   for (const SweepTime& s : setup.sweeps)
-    text += fmt::format("{}{} {:.2f}{}", text.empty() ? "" : ", ", s.sweep, s.seconds, s.sweep == "metis" ? fmt::format(" ({:.0f} %)", 100 * s.seconds / setup.total()) : "");
+    text += fmt::format("{}{} {:.2f}{}", text.empty() ? "" : ", ", s.sweep, s.seconds,
+                        s.sweep == "metis" ? fmt::format(" ({:.0f} %)", 100 * s.seconds / setup.total()) : "");
   return fmt::format("{:.2f} s: {}", setup.total(), text);
 }
 
-void print_start(const RunOptions& options, Simulation& s, const std::vector<Probe>& probes, const std::filesystem::path& folder) {
+void print_start(const RunOptions& options, Simulation& s, const std::vector<Probe>& probes,
+                 const std::filesystem::path& folder) {
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, {:.0f} bytes a node", s.scene->name, s.order.nodes,
-                           s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads, s.threads == 1 ? "" : "s", bytes_per_node(s)));
+  say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, {:.0f} bytes a node",
+                           s.scene->name, s.order.nodes, s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads,
+                           s.threads == 1 ? "" : "s", bytes_per_node(s)));
   say(options, "set-up: " + setup_text(s.setup));
-  say(options, fmt::format("start: mass {:.6g} kg, volume {:.6g} m^3, kinetic {:.6g} J, strain {:.6g} J, momentum ({:.4g}, {:.4g}, {:.4g}) kg m/s, angular momentum "
+  say(options, fmt::format("start: mass {:.6g} kg, volume {:.6g} m^3, kinetic {:.6g} J, strain {:.6g} J, momentum "
+                           "({:.4g}, {:.4g}, {:.4g}) kg m/s, angular momentum "
                            "({:.4g}, {:.4g}, {:.4g}) kg m^2/s",
-                           s.ledger.mass, s.ledger.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2], m.angular[0], m.angular[1], m.angular[2]));
+                           s.ledger.mass, s.ledger.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2],
+                           m.angular[0], m.angular[1], m.angular[2]));
   if (s.ledger.lost_at_start > 1e-12 * s.ledger.initial_energy)
-    say(options, fmt::format("start: the supports remove {:.4g} J of kinetic energy from the initial velocity", s.ledger.lost_at_start));
-  if (s.mesh->reoriented > 0) say(options, fmt::format("mesh: {} tets were inverted and have been turned", s.mesh->reoriented));
-  if (s.mesh->unnamed_faces > 0) say(options, fmt::format("mesh: {} boundary triangles have no name: free", s.mesh->unnamed_faces));
-  if (!s.boundary.free_faces.empty()) say(options, fmt::format("faces that no [[boundary]] names are free: {}", fmt::join(s.boundary.free_faces, " ")));
+    say(options, fmt::format("start: the supports remove {:.4g} J of kinetic energy from the initial velocity",
+                             s.ledger.lost_at_start));
+  if (s.mesh->reoriented > 0)
+    say(options, fmt::format("mesh: {} tets were inverted and have been turned", s.mesh->reoriented));
+  if (s.mesh->unnamed_faces > 0)
+    say(options, fmt::format("mesh: {} boundary triangles have no name: free", s.mesh->unnamed_faces));
+  if (!s.boundary.free_faces.empty())
+    say(options, fmt::format("faces that no [[boundary]] names are free: {}", fmt::join(s.boundary.free_faces, " ")));
   if (s.order.metis_failed) say(options, "order: METIS failed; one RCM numbering was cut into parts instead");
   for (const Probe& p : probes)
-    say(options, p.place.tet >= 0 ? fmt::format("probe {}: in tet {}", p.spec.name, p.place.tet)
-                                  : fmt::format("probe {}: outside the mesh, nearest node {} at ({:.6g}, {:.6g}, {:.6g})", p.spec.name, p.place.nodes[0], p.place.at[0],
-                                                p.place.at[1], p.place.at[2]));
+    say(options, p.place.tet >= 0
+                     ? fmt::format("probe {}: in tet {}", p.spec.name, p.place.tet)
+                     : fmt::format("probe {}: outside the mesh, nearest node {} at ({:.6g}, {:.6g}, {:.6g})",
+                                   p.spec.name, p.place.nodes[0], p.place.at[0], p.place.at[1], p.place.at[2]));
   say(options, fmt::format("results: {}", folder.string()));
 }
 
@@ -72,7 +85,8 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   print_start(options, s, probes, folder.path());
 
   const Provenance from = provenance();
-  FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.threads, scene.text), scene.output.compress);
+  FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.threads, scene.text),
+                     scene.output.compress);
   HistoryWriter history(folder.path() / "history.csv", history_columns(s, probes));
   Progress progress(0, scene.time.end, options.quiet);
   catch_stop_signals();
@@ -81,7 +95,10 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   Observer observer;
   observer.on_step = [&](const Simulation& now) {
     progress.update(now.step, now.t, now.dt, std::nullopt);
-    if (!now.warning.empty() && warned.empty()) warned = now.warning, progress.message("warning: " + warned);
+    if (!now.warning.empty() && warned.empty()) {
+      warned = now.warning;
+      progress.message("warning: " + warned);
+    }
   };
   observer.on_history = [&](const Simulation&) { history.row(history_row(s, probes)); };
   observer.on_frame = [&](const Simulation& now) {
@@ -94,11 +111,11 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   std::string reason;
   const std::string status = run(s, observer, reason);
   Summary summary = summarise(s, probes, status, reason);
-  summary.peak_bytes = peak_bytes();               // before the bandwidth is measured, which takes 128 MB
+  summary.peak_bytes = peak_bytes();  // before the bandwidth is measured, which takes 128 MB
   summary.throughput = throughput(s, 0);
   write_summary(folder.path() / "summary.json", summary, from);
-  if (!options.quiet && summary.throughput) {      // again with the bandwidth: nothing is lost if its measurement fails
-    constexpr std::size_t beyond_L3 = 8 << 20;     // doubles: 64 MB an array
+  if (!options.quiet && summary.throughput) {   // again with the bandwidth: nothing is lost if its measurement fails
+    constexpr std::size_t beyond_L3 = 8 << 20;  // doubles: 64 MB an array
     summary.throughput = throughput(s, update_bandwidth(s.threads, beyond_L3, 3));
     write_summary(folder.path() / "summary.json", summary, from);
   }

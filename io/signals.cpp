@@ -9,7 +9,8 @@ namespace {
 
 constexpr std::array stopping{SIGINT, SIGTERM, SIGXCPU};
 volatile std::sig_atomic_t received = 0;
-volatile std::sig_atomic_t caught[stopping.size()] = {};  // those that were not ignored when the run began (nohup, background jobs)
+volatile std::sig_atomic_t caught[stopping.size()] =
+    {};  // those that were not ignored when the run began (nohup, background jobs)
 
 extern "C" void note_signal(int signal) {
   received = signal;

@@ -14,7 +14,8 @@ NANSON_INLINE double density(const Rows& rows, const Coefficients& k, int n) {
 /// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
 /// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
 template <GradientCorrection correction, Materials materials>
-NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows,
+                          const Coefficients& k, const Scratch& scratch) {
   constexpr bool corrected = correction == GradientCorrection::found;
   constexpr int width = corrected ? 8 : 4;
   const double* buffer = scratch.edge;
@@ -35,7 +36,8 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
     for (std::int32_t e = lists.out[n]; e < lists.out[n + 1]; ++e) add(Outward(), e);
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) add(Inward(), lists.in_edges[i]);
     if constexpr (corrected) f = low(g[0]);
-    for (std::int32_t i = lists.corner[n]; i < lists.corner[n + 1]; ++i) f = f + load4(scratch.corner + 4 * (i - part.corner_begin));
+    for (std::int32_t i = lists.corner[n]; i < lists.corner[n + 1]; ++i)
+      f = f + load4(scratch.corner + 4 * (i - part.corner_begin));
     store4(scratch.force + 4 * (n - part.node_begin), f);
     if constexpr (corrected) {
       double* dG = scratch.dG + 12 * (n - part.node_begin);
@@ -46,7 +48,8 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
 
 /// Along each held direction the force becomes mass x prescribed acceleration; what the support gave is booked [N].
 template <Materials materials>
-NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficients& k, const Constraint* constraints, double* reactions, const Scratch& scratch) {
+NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficients& k, const Constraint* constraints,
+                             double* reactions, const Scratch& scratch) {
   for (std::int32_t i = part.constraint_begin; i < part.constraint_end; ++i) {
     const Constraint& h = constraints[i];
     double* f = scratch.force + 4 * (h.node - part.node_begin);
@@ -76,42 +79,53 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
     store4(new_row, fma(dt, rate, fma(w0, load4(old_row), w1 * load4(stage_row))));
   };
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    const double *U_old = rows.U_old + row::U * n, *U_stage = rows.U_stage + row::U * n, *PH = rows.PH + row::PH * n, *G = rows.G + row::G * n;
+    const double *U_old = rows.U_old + row::U * n, *U_stage = rows.U_stage + row::U * n, *PH = rows.PH + row::PH * n,
+                 *G = rows.G + row::G * n;
     double* U_new = rows.U_new + row::U * n;
     Vec4 g[3] = {load4(G), load4(G + 4), load4(G + 8)};
     if constexpr (correction != GradientCorrection::none) {
-      const double* dG = correction == GradientCorrection::lagged ? rows.lagged_dG + row::U * n : scratch.dG + 12 * (n - part.node_begin);
+      const double* dG = correction == GradientCorrection::lagged ? rows.lagged_dG + row::U * n
+                                                                  : scratch.dG + 12 * (n - part.node_begin);
       for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(dG + 4 * I);
     }
     if constexpr (materials == Materials::several) inverse_rho = 1.0 / rows.rho[n];
     const double inverse_volume = rows.X[row::X * n + 3], inverse_mass = inverse_rho * inverse_volume;
-    Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin)) * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
+    Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin))
+                * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
     if constexpr (areas == Areas::current) rate[3] += rows.dJ[n];
     else if constexpr (formulation != Formulation::pF) {
       Vec4 p = load4(PH + 4) * g[0];
-      p = fma(load4(PH + 12), g[1], p), p = fma(load4(PH + 20), g[2], p);
+      p = fma(load4(PH + 12), g[1], p);
+      p = fma(load4(PH + 20), g[2], p);
       rate[3] += (p[0] + p[1]) + p[2];
     }
     const Vec4 v = load4(U_stage);
     const Vec4 F[3] = {load4(U_stage + 4), load4(U_stage + 8), load4(U_stage + 12)};
     advance(U_old, U_stage, U_new, rate);
-    for (int I = 0; I < 3; ++I) advance(U_old + 4 * (I + 1), U_stage + 4 * (I + 1), U_new + 4 * (I + 1), Vec4{g[I][0], g[I][1], g[I][2], v[I]});
+    for (int I = 0; I < 3; ++I)
+      advance(U_old + 4 * (I + 1), U_stage + 4 * (I + 1), U_new + 4 * (I + 1), Vec4{g[I][0], g[I][1], g[I][2], v[I]});
     if constexpr (formulation == Formulation::pFHJ) {
       Tensor<double> Fa, Ga;
-      for (int m = 0; m < 9; ++m) Fa[m % 3][m / 3] = F[m / 3][m % 3], Ga[m % 3][m / 3] = g[m / 3][m % 3];
+      for (int m = 0; m < 9; ++m) {
+        Fa[m % 3][m / 3] = F[m / 3][m % 3];
+        Ga[m % 3][m / 3] = g[m / 3][m % 3];
+      }
       const Tensor<double> dH = cross(Fa, Ga);
       for (int I = 0; I < 3; ++I)
-        advance(rows.H_old + row::H * n + 4 * I, rows.H_stage + row::H * n + 4 * I, rows.H_new + row::H * n + 4 * I, Vec4{dH[0][I], dH[1][I], dH[2][I], 0.0});
+        advance(rows.H_old + row::H * n + 4 * I, rows.H_stage + row::H * n + 4 * I, rows.H_new + row::H * n + 4 * I,
+                Vec4{dH[0][I], dH[1][I], dH[2][I], 0.0});
     }
     if constexpr (correction == GradientCorrection::found)
       if (k.leaves_lagged)
-        for (int I = 0; I < 3; ++I) store4(rows.lagged_dG + row::U * n + 4 * I, load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I));
+        for (int I = 0; I < 3; ++I)
+          store4(rows.lagged_dG + row::U * n + 4 * I, load4(scratch.dG + 12 * (n - part.node_begin) + 4 * I));
   }
 }
 
 template <Formulation formulation, GradientCorrection correction, Areas areas, Materials materials>
-void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows, const Coefficients& k,
-                            const Constraint* constraints, double* reactions, const Scratch& scratch) {
+void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows,
+                            const Coefficients& k, const Constraint* constraints, double* reactions,
+                            const Scratch& scratch) {
   gather<correction, materials>(part, edges, lists, rows, k, scratch);
   constrain<materials>(part, rows, k, constraints, reactions, scratch);
   update<formulation, correction, areas, materials>(part, rows, k, scratch);

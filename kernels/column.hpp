@@ -25,7 +25,8 @@ NANSON_INLINE Vec4 low(Vec8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3
 NANSON_INLINE Vec4 high(Vec8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
 NANSON_INLINE Vec8 concat(Vec4 a, Vec4 b) {
 #if defined(__AVX512F__)
-  return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(a), b, 1);  // the shuffle below takes two moves more with GCC 12
+  return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(a), b,
+                                  1);  // the shuffle below takes two moves more with GCC 12
 #else
   return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
 #endif
@@ -111,7 +112,9 @@ NANSON_INLINE Mask8 less8(const std::int32_t* a, const std::int32_t* b) {
 }
 
 /// The first lanes of eight.
-NANSON_INLINE Mask8 first_lanes(std::ptrdiff_t count) { return Vec8{0, 1, 2, 3, 4, 5, 6, 7} < static_cast<double>(count); }
+NANSON_INLINE Mask8 first_lanes(std::ptrdiff_t count) {
+  return Vec8{0, 1, 2, 3, 4, 5, 6, 7} < static_cast<double>(count);
+}
 
 /// Sum of the lanes, pair by pair.
 NANSON_INLINE double sum(Vec8 x) {
@@ -186,7 +189,8 @@ NANSON_INLINE Bits8 bits_of(Vec8 x) { return std::bit_cast<Bits8>(x); }
 NANSON_INLINE double real_of(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 NANSON_INLINE Vec8 real_of(Bits8 bits) { return std::bit_cast<Vec8>(bits); }
 
-inline constexpr double ln2_high = 0x1.62e42feep-1, ln2_low = 0x1.a39ef35793c76p-33;  // k ln2_high is exact for the exponents of a double
+inline constexpr double ln2_high = 0x1.62e42feep-1,
+                        ln2_low = 0x1.a39ef35793c76p-33;  // k ln2_high is exact for the exponents of a double
 
 /// ln x = k ln 2 + ln m, m in [sqrt(1/2), sqrt(2)): with f = m - 1, s = f/(2 + f), ln m = f - (f^2/2 - s (f^2/2 + R)), R = 2/3 s^2 + 2/5 s^4 + ... About 1 ulp;
 /// NaN where x is not a normal number above 0, which callers report as a breakdown.
@@ -195,9 +199,12 @@ NANSON_INLINE Real logarithm(Real x) {
   constexpr std::uint64_t bias = 1024ull << 52, root_half = 0x3fe6a09e667f3bcd;
   const auto bits = bits_of(x);
   const auto k = (bits - root_half + bias) >> 52;  // + 1024
-  const Real exponent = real_of(k | 0x4330000000000000ull) - (0x1p52 + 1024), f = real_of(bits + bias - (k << 52)) - 1.0;
+  const Real exponent = real_of(k | 0x4330000000000000ull) - (0x1p52 + 1024),
+             f = real_of(bits + bias - (k << 52)) - 1.0;
   const Real s = f / (f + 2.0), half = 0.5 * (f * f), z = s * s;
-  const Real R = z * polynomial(z, {2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19});
+  const Real R = z
+                 * polynomial(z,
+                              {2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17, 2.0 / 19});
   const Real ln = exponent * ln2_high - ((half - (s * (half + R) + exponent * ln2_low)) - f);
   return choose(x >= 0x1p-1022, choose(x < __builtin_inf(), ln, x), x - x + __builtin_nan(""));
 }
@@ -208,8 +215,8 @@ NANSON_INLINE Real exponential(Real x) {
   constexpr double round = 0x1.8p52;  // x + round holds the nearest whole number in its low bits
   const Real t = x * 0x1.71547652b82fep0 + round, k = t - round;
   const Real r = (x - k * ln2_high) - k * ln2_low;
-  const Real P = polynomial(r, {1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800,
-                                1.0 / 479001600, 1.0 / 6227020800});
+  const Real P = polynomial(r, {1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880,
+                                1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600, 1.0 / 6227020800});
   const Real e = real_of(bits_of(1.0 + (r + r * r * P)) + (bits_of(t) << 52));
   const Real beyond = choose(x > 0.0, Real{} + __builtin_inf(), choose(x < 0.0, Real{}, x));
   return choose(x < 708.0, choose(x > -708.0, e, beyond), beyond);
@@ -218,9 +225,12 @@ NANSON_INLINE Real exponential(Real x) {
 /// Eight rows of four doubles, `stride` doubles apart, as four lanes of eight.
 NANSON_INLINE void load_transposed(const double* p, std::ptrdiff_t stride, Vec8& c0, Vec8& c1, Vec8& c2, Vec8& c3) {
   const Vec8 z0 = concat(load4(p), load4(p + 4 * stride)), z1 = concat(load4(p + stride), load4(p + 5 * stride));
-  const Vec8 z2 = concat(load4(p + 2 * stride), load4(p + 6 * stride)), z3 = concat(load4(p + 3 * stride), load4(p + 7 * stride));
-  const Vec8 t0 = __builtin_shufflevector(z0, z1, 0, 8, 2, 10, 4, 12, 6, 14), t1 = __builtin_shufflevector(z0, z1, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vec8 t2 = __builtin_shufflevector(z2, z3, 0, 8, 2, 10, 4, 12, 6, 14), t3 = __builtin_shufflevector(z2, z3, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Vec8 z2 = concat(load4(p + 2 * stride), load4(p + 6 * stride)),
+             z3 = concat(load4(p + 3 * stride), load4(p + 7 * stride));
+  const Vec8 t0 = __builtin_shufflevector(z0, z1, 0, 8, 2, 10, 4, 12, 6, 14),
+             t1 = __builtin_shufflevector(z0, z1, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Vec8 t2 = __builtin_shufflevector(z2, z3, 0, 8, 2, 10, 4, 12, 6, 14),
+             t3 = __builtin_shufflevector(z2, z3, 1, 9, 3, 11, 5, 13, 7, 15);
   c0 = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
   c1 = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
   c2 = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
@@ -229,11 +239,22 @@ NANSON_INLINE void load_transposed(const double* p, std::ptrdiff_t stride, Vec8&
 
 /// Eight rows {c0, c1, c2, c3} from lanes.
 NANSON_INLINE void rows_of(Vec8 c0, Vec8 c1, Vec8 c2, Vec8 c3, Vec4 (&row)[8]) {
-  const Vec8 t0 = __builtin_shufflevector(c0, c1, 0, 8, 2, 10, 4, 12, 6, 14), t1 = __builtin_shufflevector(c0, c1, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vec8 t2 = __builtin_shufflevector(c2, c3, 0, 8, 2, 10, 4, 12, 6, 14), t3 = __builtin_shufflevector(c2, c3, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vec8 z0 = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13), z1 = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
-  const Vec8 z2 = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15), z3 = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
-  row[0] = low(z0), row[1] = low(z1), row[2] = low(z2), row[3] = low(z3), row[4] = high(z0), row[5] = high(z1), row[6] = high(z2), row[7] = high(z3);
+  const Vec8 t0 = __builtin_shufflevector(c0, c1, 0, 8, 2, 10, 4, 12, 6, 14),
+             t1 = __builtin_shufflevector(c0, c1, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Vec8 t2 = __builtin_shufflevector(c2, c3, 0, 8, 2, 10, 4, 12, 6, 14),
+             t3 = __builtin_shufflevector(c2, c3, 1, 9, 3, 11, 5, 13, 7, 15);
+  const Vec8 z0 = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13),
+             z1 = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
+  const Vec8 z2 = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15),
+             z3 = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+  row[0] = low(z0);
+  row[1] = low(z1);
+  row[2] = low(z2);
+  row[3] = low(z3);
+  row[4] = high(z0);
+  row[5] = high(z1);
+  row[6] = high(z2);
+  row[7] = high(z3);
 }
 
 /// The inverse of load_transposed.
@@ -248,7 +269,8 @@ NANSON_INLINE void stream8(double* p, Vec8 x) {
 #if defined(__AVX512F__)
   _mm512_stream_pd(p, x);
 #elif defined(__AVX__)
-  _mm256_stream_pd(p, low(x)), _mm256_stream_pd(p + 4, high(x));
+  _mm256_stream_pd(p, low(x));
+  _mm256_stream_pd(p + 4, high(x));
 #else
   store8(p, x);
 #endif

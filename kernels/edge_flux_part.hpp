@@ -23,8 +23,12 @@ NANSON_INLINE Vec4 traction_jump(const Rows& rows, int a, int b, const double (&
   return y;
 }
 
-constexpr bool finds(EdgeCorrection c) { return c == EdgeCorrection::finds_pressure || c == EdgeCorrection::finds_full; }
-constexpr bool adds_pressure(EdgeCorrection c) { return c == EdgeCorrection::finds_pressure || c == EdgeCorrection::takes_pressure; }
+constexpr bool finds(EdgeCorrection c) {
+  return c == EdgeCorrection::finds_pressure || c == EdgeCorrection::finds_full;
+}
+constexpr bool adds_pressure(EdgeCorrection c) {
+  return c == EdgeCorrection::finds_pressure || c == EdgeCorrection::takes_pressure;
+}
 
 /// Edges in two passes: gathered one by one as columns, then finished eight at a time as lanes, so that roots and quotients are not waited for edge by edge.
 inline constexpr int edge_block = 64;
@@ -36,14 +40,20 @@ struct EdgeBlock {
 };
 
 /// First pass over edges [begin, end): central traction and area, jumps; q = (theta/4)(G_a - G_b) . D into the second half of the flux rows.
-template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, PressureJump jump, EntropyFix fix, Areas areas>
-NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta, EdgeBlock& block, double* flux) {
+template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, PressureJump jump, EntropyFix fix,
+          Areas areas>
+NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, const Rows& rows, double theta,
+                                EdgeBlock& block, double* flux) {
   constexpr int ahead = 60;  // edges whose neighbour rows are asked for in advance; the array is padded
   for (int e = begin; e < end; ++e) {
     const std::int32_t a = edges.a[e], b = edges.b[e], next = edges.b[e + ahead];
     for (int line = 0; line < 3; ++line) __builtin_prefetch(rows.PH + row::PH * next + 8 * line);
-    __builtin_prefetch(rows.W + row::W * next), __builtin_prefetch(rows.X + row::X * next);
-    if constexpr (reconstruction != Reconstruction::constant) __builtin_prefetch(rows.G + row::G * next), __builtin_prefetch(rows.G + row::G * next + 8);
+    __builtin_prefetch(rows.W + row::W * next);
+    __builtin_prefetch(rows.X + row::X * next);
+    if constexpr (reconstruction != Reconstruction::constant) {
+      __builtin_prefetch(rows.G + row::G * next);
+      __builtin_prefetch(rows.G + row::G * next + 8);
+    }
     if constexpr (reconstruction == Reconstruction::limited) __builtin_prefetch(rows.L + row::L * next);
     if constexpr (jump == PressureJump::tensor && reconstruction != Reconstruction::constant)
       for (int line = 0; line < 5; ++line) __builtin_prefetch(rows.GP + row::GP * next + 8 * line);
@@ -52,13 +62,16 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     const double* PHa = rows.PH + row::PH * a;
     const Vec8 PH_a[3] = {load8(PHa), load8(PHa + 8), load8(PHa + 16)};
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
-    if constexpr (areas == Areas::current) tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
-    const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a), plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
+    if constexpr (areas == Areas::current)
+      tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
+    const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a),
+               plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
     store8(block.tc + 8 * at, tc);
     store4(block.d + 4 * at, reconstructed_jump<reconstruction>(rows, a, b, plain, D));
     if constexpr (fix != EntropyFix::none || audits || areas == Areas::current) store4(block.plain + 4 * at, plain);
-    if constexpr (jump == PressureJump::tensor) store4(block.y + 4 * at, traction_jump<reconstruction>(rows, a, b, C, D));
+    if constexpr (jump == PressureJump::tensor)
+      store4(block.y + 4 * at, traction_jump<reconstruction>(rows, a, b, C, D));
     if constexpr (finds(correction)) {
       const Vec4 q = difference_along(rows.G + row::G * a, rows.G + row::G * b, D) * broadcast4(0.25 * theta);
       store4(flux + 8 * at + 4, q);
@@ -70,28 +83,38 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
 /// Asks for the rows of a node, some nodes ahead, that the update reads after the edge loop: states, or the state and a lagged correction; H where it is carried.
 inline constexpr int nodes_ahead = 40;
 NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lagged) {
-  for (const double* U : {rows.U_old, takes_lagged ? rows.lagged_dG : rows.U_stage}) __builtin_prefetch(U + row::U * n), __builtin_prefetch(U + row::U * n + 8);
+  for (const double* U : {rows.U_old, takes_lagged ? rows.lagged_dG : rows.U_stage}) {
+    __builtin_prefetch(U + row::U * n);
+    __builtin_prefetch(U + row::U * n + 8);
+  }
   if (rows.H_old)
-    for (const double* H : {rows.H_old, rows.H_stage}) __builtin_prefetch(H + row::H * n), __builtin_prefetch(H + row::H * n + 8);
+    for (const double* H : {rows.H_old, rows.H_stage}) {
+      __builtin_prefetch(H + row::H * n);
+      __builtin_prefetch(H + row::H * n + 8);
+    }
 }
 
 /// Second pass over eight edges: {P_ave C + D^p, D^J} into rows of `width`. Returns the power of the stabilisation alone, (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J
 /// with the plain nodal differences (paper, eq. 71; method, section 11), where the scene audits [W].
-template <EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, Areas areas, class Z>
-NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q, double* motion, double* flux) {
+template <EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric,
+          EntropyFix fix, Areas areas, class Z>
+NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, Vec8 size, Z rho_cp, Z rho_cs, const double* q,
+                                double* motion, double* flux) {
   constexpr int width = finds(correction) ? 8 : 4;
   const auto dot = [](const Vec8(&p)[4], const Vec8(&q)[4]) { return fma(p[2], q[2], fma(p[1], q[1], p[0] * q[0])); };
   Vec8 t[4], c[4], d[4], plain[4]{}, y[4];
   load_transposed(block.tc + 8 * at, 8, t[0], t[1], t[2], t[3]);
   load_transposed(block.tc + 8 * at + 4, 8, c[0], c[1], c[2], c[3]);
   load_transposed(block.d + 4 * at, 4, d[0], d[1], d[2], d[3]);
-  if constexpr (fix != EntropyFix::none || audits || areas == Areas::current) load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
+  if constexpr (fix != EntropyFix::none || audits || areas == Areas::current)
+    load_transposed(block.plain + 4 * at, 4, plain[0], plain[1], plain[2], plain[3]);
   const Vec8 cc = dot(c, c);
   EdgeCoefficientsOf<Vec8> s = edge_coefficients<metric>(cc, size, rho_cp, rho_cs);
   if constexpr (!evolves_J) s.volume = Vec8{};
   if constexpr (evolves_J && jump == PressureJump::tensor) {
     load_transposed(block.y + 4 * at, 4, y[0], y[1], y[2], y[3]);
-    d[3] = dot(c, y), s.volume = s.volume / cc;
+    d[3] = dot(c, y);
+    s.volume = s.volume / cc;
   }
   StabiliserOf<Vec8> u = stabiliser<fix, Vec8>(s, cc, dot(c, d), dot(c, plain), dot(d, plain), d[3] * plain[3]);
   if constexpr (areas == Areas::current) store8_anywhere(motion, dot(c, plain));
@@ -112,33 +135,48 @@ NANSON_INLINE Mask8 counted(const EdgeArrays& edges, std::ptrdiff_t e, int left)
 /// Flux of every edge of the part: {P_ave C + D^p, D^J} (paper, eq. 40a, 43c), and q = (theta/4)(G_a - G_b) . D with a flux correction (method, section 14).
 /// Only sums, differences and products of the two sides enter, in one order: seen from b the flux is bitwise the opposite.
 /// Arrays and coefficients by value: the compiler then knows that the stores to the buffer leave them alone. Returns the power of the stabilisation [W].
-template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix,
-          Areas areas = Areas::undeformed, Materials materials = Materials::one>
-NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k, double* buffer, double* motion = nullptr) {
+template <Reconstruction reconstruction, EdgeCorrection correction, bool audits, bool evolves_J, PressureJump jump,
+          UpwindMetric metric, EntropyFix fix, Areas areas = Areas::undeformed, Materials materials = Materials::one>
+NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const Rows rows, const Coefficients k,
+                                 double* buffer, double* motion = nullptr) {
   constexpr int width = finds(correction) ? 8 : 4;
   EdgeBlock block{};
   Vec8 power{};
   for (int begin = part.edge_begin; begin < part.edge_end; begin += edge_block) {
     const int count = part.edge_end - begin < edge_block ? part.edge_end - begin : edge_block;
     double* flux = buffer + width * static_cast<std::ptrdiff_t>(begin - part.edge_begin);
-    gather_edges<reconstruction, correction, audits, jump, fix, areas>(begin, begin + count, edges, rows, k.theta, block, flux);
+    gather_edges<reconstruction, correction, audits, jump, fix, areas>(begin, begin + count, edges, rows, k.theta,
+                                                                       block, flux);
     for (int at = 0; at < count; at += 8) {
       const std::ptrdiff_t n = edges.a[begin + at] + nodes_ahead;
       prefetch_U(n, rows, k.takes_lagged);
-      if constexpr (correction == EdgeCorrection::finds_full) __builtin_prefetch(rows.dP + row::dP * n), __builtin_prefetch(rows.dP + row::dP * n + 8);
+      if constexpr (correction == EdgeCorrection::finds_full) {
+        __builtin_prefetch(rows.dP + row::dP * n);
+        __builtin_prefetch(rows.dP + row::dP * n + 8);
+      }
       const double* q = nullptr;
-      if constexpr (adds_pressure(correction)) q = rows.lagged_q + begin + at, __builtin_prefetch(q + 256);
+      if constexpr (adds_pressure(correction)) {
+        q = rows.lagged_q + begin + at;
+        __builtin_prefetch(q + 256);
+      }
       const Vec8 size = edge_sizes(edges, begin + at);
       double* of_motion = nullptr;
-      if constexpr (areas == Areas::current) {  // twice as many arrays: the processor's own prefetch loses their sequence
-        for (int i = 0; i < 3; ++i) __builtin_prefetch(edges.c[i] + begin + at + 256), __builtin_prefetch(edges.C[i] + begin + at + 256);
+      if constexpr (areas
+                    == Areas::current) {  // twice as many arrays: the processor's own prefetch loses their sequence
+        for (int i = 0; i < 3; ++i) {
+          __builtin_prefetch(edges.c[i] + begin + at + 256);
+          __builtin_prefetch(edges.C[i] + begin + at + 256);
+        }
         of_motion = motion + (begin + at - part.edge_begin);
       }
       Vec8 of_edges;
       if constexpr (materials == Materials::several)
-        of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(block, at, size, load8_anywhere(edges.rho_cp + begin + at),
-                                                                                         load8_anywhere(edges.rho_cs + begin + at), q, of_motion, flux + width * at);
-      else of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(block, at, size, k.rho_cp, k.rho_cs, q, of_motion, flux + width * at);
+        of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(
+            block, at, size, load8_anywhere(edges.rho_cp + begin + at), load8_anywhere(edges.rho_cs + begin + at), q,
+            of_motion, flux + width * at);
+      else
+        of_edges = finish_edges<correction, audits, evolves_J, jump, metric, fix, areas>(
+            block, at, size, k.rho_cp, k.rho_cs, q, of_motion, flux + width * at);
       if constexpr (audits) power = power + choose(counted(edges, begin + at, count - at), of_edges, Vec8{});
     }
   }
@@ -146,7 +184,8 @@ NANSON_INLINE double edge_fluxes(const Part& part, const EdgeArrays edges, const
 }
 
 /// Corners: adjoint boundary flux (2 P_a - P_b - P_c)/8 C_gamma (method, section 3) and the load on the face.
-NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k, double* buffer) {
+NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, const NodeLists& lists,
+                                 const Rows& rows, const Coefficients& k, double* buffer) {
   const auto stress = [&](std::ptrdiff_t n, int I) { return load4(rows.PH + row::PH * n + 8 * I); };
   if (part.corner_begin == part.corner_end) return;
   for (int a = part.node_begin; a < part.node_end; ++a)
@@ -161,10 +200,13 @@ NANSON_INLINE void corner_forces(const Part& part, const CornerArrays& corners, 
     }
 }
 
-template <Reconstruction reconstruction, EdgeCorrection correction, bool evolves_J, PressureJump jump, UpwindMetric metric, EntropyFix fix, bool audits, Materials materials>
-double edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const Rows& rows, const Coefficients& k,
-                      const Scratch& scratch) {
-  const double power = edge_fluxes<reconstruction, correction, audits, evolves_J, jump, metric, fix, Areas::undeformed, materials>(part, edges, rows, k, scratch.edge);
+template <Reconstruction reconstruction, EdgeCorrection correction, bool evolves_J, PressureJump jump,
+          UpwindMetric metric, EntropyFix fix, bool audits, Materials materials>
+double edge_flux_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists,
+                      const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+  const double power =
+      edge_fluxes<reconstruction, correction, audits, evolves_J, jump, metric, fix, Areas::undeformed, materials>(
+          part, edges, rows, k, scratch.edge);
   corner_forces(part, corners, lists, rows, k, scratch.corner);
   return power;
 }

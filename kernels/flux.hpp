@@ -34,7 +34,8 @@ struct StabiliserOf {
 /// The entropy fix drops the normal or the tangential part of D^p, and D^J, where the reconstructed jump d opposes the plain one (method, section 3).
 /// From the products c.d, c.plain and d.plain of the velocity jumps, and that of the pressure jumps.
 template <EntropyFix fix, class Real>
-NANSON_INLINE StabiliserOf<Real> stabiliser(const EdgeCoefficientsOf<Real>& s, Real cc, Real cd, Real c_plain, Real d_plain, Real pressure_product) {
+NANSON_INLINE StabiliserOf<Real> stabiliser(const EdgeCoefficientsOf<Real>& s, Real cc, Real cd, Real c_plain,
+                                            Real d_plain, Real pressure_product) {
   if constexpr (fix == EntropyFix::none) return {s.shear, s.volume, s.normal * cd};
   const Real zero{}, cd_cc = cd / cc, tangential = d_plain - cd_cc * c_plain;
   const Real shear = choose(tangential < 0.0, zero, s.shear), volume = choose(pressure_product < 0.0, zero, s.volume);

@@ -13,7 +13,9 @@ struct Jet {
   NANSON_INLINE friend Jet operator+(Jet a, Jet b) { return {a.value + b.value, a.slope + b.slope}; }
   NANSON_INLINE friend Jet operator-(Jet a, Jet b) { return {a.value - b.value, a.slope - b.slope}; }
   NANSON_INLINE friend Jet operator-(Jet a) { return {-a.value, -a.slope}; }
-  NANSON_INLINE friend Jet operator*(Jet a, Jet b) { return {a.value * b.value, a.slope * b.value + a.value * b.slope}; }
+  NANSON_INLINE friend Jet operator*(Jet a, Jet b) {
+    return {a.value * b.value, a.slope * b.value + a.value * b.slope};
+  }
   NANSON_INLINE friend Jet operator/(Jet a, Jet b) {
     const Real q = a.value / b.value;
     return {q, (a.slope - q * b.slope) / b.value};
@@ -23,7 +25,9 @@ struct Jet {
 };
 
 NANSON_INLINE Jet<double> choose(bool condition, Jet<double> a, Jet<double> b) { return condition ? a : b; }
-NANSON_INLINE Jet<Vec8> choose(Mask8 condition, Jet<Vec8> a, Jet<Vec8> b) { return {choose(condition, a.value, b.value), choose(condition, a.slope, b.slope)}; }
+NANSON_INLINE Jet<Vec8> choose(Mask8 condition, Jet<Vec8> a, Jet<Vec8> b) {
+  return {choose(condition, a.value, b.value), choose(condition, a.slope, b.slope)};
+}
 template <class Real>
 NANSON_INLINE Jet<Real> root(Jet<Real> a) {
   const Real r = root(a.value);

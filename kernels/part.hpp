@@ -10,26 +10,27 @@ namespace nanson {
 
 /// Doubles in a row of each role. Rows are 32-byte multiples, arrays 64-byte aligned.
 namespace row {
-inline constexpr std::ptrdiff_t U = 16;    // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
-inline constexpr std::ptrdiff_t H = 12;    // {columns of H, 0}, pFHJ only
-inline constexpr std::ptrdiff_t W = 4;     // {v, Sigma_J}: what is reconstructed and swept
-inline constexpr std::ptrdiff_t PH = 24;   // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
-inline constexpr std::ptrdiff_t G = 12;    // per direction I: d{v, Sigma_J}/dX_I
-inline constexpr std::ptrdiff_t dP = 12;   // {columns of dP, 0}: what the full flux correction adds to the nodal stress
-inline constexpr std::ptrdiff_t GP = 36;   // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
-inline constexpr std::ptrdiff_t L = 4;     // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
-inline constexpr std::ptrdiff_t x = 4;     // {x, 0}, current areas only
-inline constexpr std::ptrdiff_t X = 4;     // {X, 1/Omega}
-inline constexpr std::ptrdiff_t lambda = 4;  // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
+inline constexpr std::ptrdiff_t U =
+    16;  // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
+inline constexpr std::ptrdiff_t H = 12;   // {columns of H, 0}, pFHJ only
+inline constexpr std::ptrdiff_t W = 4;    // {v, Sigma_J}: what is reconstructed and swept
+inline constexpr std::ptrdiff_t PH = 24;  // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
+inline constexpr std::ptrdiff_t G = 12;   // per direction I: d{v, Sigma_J}/dX_I
+inline constexpr std::ptrdiff_t dP = 12;  // {columns of dP, 0}: what the full flux correction adds to the nodal stress
+inline constexpr std::ptrdiff_t GP = 36;  // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
+inline constexpr std::ptrdiff_t L = 4;    // limiter of {v, Sigma_J} (limited), or pseudo-Laplacian of {v, J} (jst)
+inline constexpr std::ptrdiff_t x = 4;    // {x, 0}, current areas only
+inline constexpr std::ptrdiff_t X = 4;    // {X, 1/Omega}
+inline constexpr std::ptrdiff_t lambda = 4;   // {lambda, 0}: makes the pseudo-Laplacian vanish on linear fields (jst)
 inline constexpr std::ptrdiff_t plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
 }  // namespace row
 
 /// Edges as structure of arrays, grouped by part, sorted by their first node a, which the part owns; an edge between two parts stands in both.
 struct EdgeArrays {
-  const std::int32_t* a;        // row of the owned node
-  const std::int32_t* b;        // row of the other node
-  const double* C[3];           // [m^2] area vector from a to b
-  const double* c[3] = {};      // [m^2] current area vector from a to b, current areas only
+  const std::int32_t* a;           // row of the owned node
+  const std::int32_t* b;           // row of the other node
+  const double* C[3];              // [m^2] area vector from a to b
+  const double* c[3] = {};         // [m^2] current area vector from a to b, current areas only
   const double* rho_cp = nullptr;  // [kg/(m^2 s)] impedances, several materials only
   const double* rho_cs = nullptr;
 };
@@ -40,7 +41,8 @@ NANSON_INLINE double edge_size(const EdgeArrays& edges, std::ptrdiff_t e) {
   return root(fma(C2, C2, fma(C1, C1, C0 * C0)));
 }
 NANSON_INLINE Vec8 edge_sizes(const EdgeArrays& edges, std::ptrdiff_t e) {
-  const Vec8 C0 = load8_anywhere(edges.C[0] + e), C1 = load8_anywhere(edges.C[1] + e), C2 = load8_anywhere(edges.C[2] + e);
+  const Vec8 C0 = load8_anywhere(edges.C[0] + e), C1 = load8_anywhere(edges.C[1] + e),
+             C2 = load8_anywhere(edges.C[2] + e);
   return root(fma(C2, C2, fma(C1, C1, C0 * C0)));
 }
 
@@ -48,7 +50,9 @@ NANSON_INLINE Vec8 edge_sizes(const EdgeArrays& edges, std::ptrdiff_t e) {
 using Outward = std::integral_constant<int, 1>;
 using Inward = std::integral_constant<int, -1>;
 template <class Sense>
-constexpr auto opposite(Sense) { return std::integral_constant<int, -Sense::value>(); }
+constexpr auto opposite(Sense) {
+  return std::integral_constant<int, -Sense::value>();
+}
 template <class Sense, class Real>
 NANSON_INLINE Real add_product(Sense, Real a, Real b, Real sum) {
   if constexpr (Sense::value > 0) return fma(a, b, sum);
@@ -59,9 +63,10 @@ NANSON_INLINE Real add_product(Sense, Real a, Real b, Real sum) {
 struct CornerArrays {
   const std::int32_t* b;
   const std::int32_t* c;
-  const double* C[3];           // [m^2] outward, a third of the face
-  const std::int32_t* load;     // index into the loads of the stage, -1 without
-  const double* c_gamma[3] = {};  // [m^2] current area vector, current areas only; and the same face's corners at b and c
+  const double* C[3];        // [m^2] outward, a third of the face
+  const std::int32_t* load;  // index into the loads of the stage, -1 without
+  const double* c_gamma[3] =
+      {};  // [m^2] current area vector, current areas only; and the same face's corners at b and c
   const std::int32_t* at_b = nullptr;
   const std::int32_t* at_c = nullptr;
 };
@@ -71,12 +76,13 @@ struct NodeLists {
   const std::int32_t* out;
   const std::int32_t* in;
   const std::int32_t* in_edges;  // edge numbers ...
-  const std::int32_t* in_nodes;  // ... and their first nodes a: looked up through the edge, they would wait for each other
+  const std::int32_t*
+      in_nodes;  // ... and their first nodes a: looked up through the edge, they would wait for each other
   const std::int32_t* corner;
 };
 
 struct Part {
-  std::int32_t node_begin, node_end;                // rows; a multiple of 8, padded with nodes that have no edges
+  std::int32_t node_begin, node_end;  // rows; a multiple of 8, padded with nodes that have no edges
   std::int32_t edge_begin, edge_end;
   std::int32_t corner_begin, corner_end;
   std::int32_t constraint_begin, constraint_end;
@@ -85,27 +91,28 @@ struct Part {
 /// The rows of a stage: what is read first, what is written last.
 struct Rows {
   const double* X;
-  const double* U_old;          // state at the start of the step
-  const double* U_stage;        // state whose rates are taken
+  const double* U_old;    // state at the start of the step
+  const double* U_stage;  // state whose rates are taken
   const double* H_old;
   const double* H_stage;
-  const double* W;              // of the stage
-  const double* PH;             // of the stage
+  const double* W;   // of the stage
+  const double* PH;  // of the stage
   double* G;
   double* dP;
   double* GP;
   double* L;
   const double* lambda;
-  const double* rho;            // [kg/m^3] a node, several materials only
-  const double* loads;          // [N] 4 a loaded face: the force on each of its corners
+  const double* rho;    // [kg/m^3] a node, several materials only
+  const double* loads;  // [N] 4 a loaded face: the force on each of its corners
   double* U_new;
   double* H_new;
   double* W_new;
   double* PH_new;
-  double* plastic;              // at the start of the step, overwritten where the stage commits
-  double* lagged_dG = nullptr;  // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
-  double* lagged_q = nullptr;   // [Pa] q of Sigma_J an edge, pressure correction only
-  double* dJ = nullptr;         // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
+  double* plastic;  // at the start of the step, overwritten where the stage commits
+  double* lagged_dG =
+      nullptr;  // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
+  double* lagged_q = nullptr;  // [Pa] q of Sigma_J an edge, pressure correction only
+  double* dJ = nullptr;        // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
 };
 
 /// Directions in which a node is held, orthonormal, with what prescribes the acceleration along each.
@@ -113,9 +120,9 @@ struct Constraint {
   std::int32_t node = 0;
   std::int32_t count = 0;
   double d[3][3] = {};
-  std::int32_t face[3] = {};        // index of the named face that holds the direction
-  std::int32_t source[3][3] = {};   // boundary conditions whose prescribed velocities enter direction k ...
-  double weight[3][3] = {};         // ... with these weights (0: none)
+  std::int32_t face[3] = {};       // index of the named face that holds the direction
+  std::int32_t source[3][3] = {};  // boundary conditions whose prescribed velocities enter direction k ...
+  double weight[3][3] = {};        // ... with these weights (0: none)
 };
 
 inline constexpr int reaction_row = 4;  // per constraint: force of the support along each direction [N], its power [W]
@@ -123,34 +130,37 @@ inline constexpr int reaction_row = 4;  // per constraint: force of the support 
 /// Constants of a scene and of a stage.
 struct Coefficients {
   MaterialConstants material;
-  double rho_cp = 0, rho_cs = 0;    // [kg/(m^2 s)]
-  double theta = 2.0 / 3;           // [-] flux correction
-  bool adjoint = true;              // boundary flux
-  bool deformed_metric = true;      // upwinding, for the step bound
-  bool sweeps_J = false;            // W is {v, J} in place of {v, Sigma_J} (jst)
-  double g[3] = {};                 // [m/s^2] body force
-  double old_weight = 0, stage_weight = 1, dt = 0;   // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
-  bool streams = false;             // the mesh is larger than the caches: rows that only other sweeps read are written past them
-  bool takes_lagged = false;        // the flux correction is that of the step before's last stage: dG from Rows::lagged_dG and q from lagged_q, dP stands in PH already
-  bool leaves_lagged = false;       // the next step's first stage takes the flux correction of this one
-  bool commits = false;             // the stress of this stage is that of the new state: what flowed plastically is kept
+  double rho_cp = 0, rho_cs = 0;  // [kg/(m^2 s)]
+  double theta = 2.0 / 3;         // [-] flux correction
+  bool adjoint = true;            // boundary flux
+  bool deformed_metric = true;    // upwinding, for the step bound
+  bool sweeps_J = false;          // W is {v, J} in place of {v, Sigma_J} (jst)
+  double g[3] = {};               // [m/s^2] body force
+  double old_weight = 0, stage_weight = 1,
+         dt = 0;         // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
+  bool streams = false;  // the mesh is larger than the caches: rows that only other sweeps read are written past them
+  bool takes_lagged =
+      false;  // the flux correction is that of the step before's last stage: dG from Rows::lagged_dG and q from lagged_q, dP stands in PH already
+  bool leaves_lagged = false;  // the next step's first stage takes the flux correction of this one
+  bool commits = false;        // the stress of this stage is that of the new state: what flowed plastically is kept
   const double* acceleration = nullptr;  // [m/s^2] per boundary condition: rate of its time factor over the step
 };
 
 /// Part-local buffers of one thread.
 struct Scratch {
-  double* edge;                 // row of 4 {flux, D^J} an edge, of 8 where a flux correction is found: {q, 0} too; eight rows more are overwritten
-  double* corner;               // row of 4 {force, 0} a boundary corner
-  double* force;                // row of 4 {force, J source} a node
-  double* dG;                   // row of 12 a node, where a flux correction is found
-  double* motion = nullptr;     // [m^3/s] (v_b - v_a) . c an edge, current areas only; eight more are overwritten
+  double*
+      edge;  // row of 4 {flux, D^J} an edge, of 8 where a flux correction is found: {q, 0} too; eight rows more are overwritten
+  double* corner;            // row of 4 {force, 0} a boundary corner
+  double* force;             // row of 4 {force, J source} a node
+  double* dG;                // row of 12 a node, where a flux correction is found
+  double* motion = nullptr;  // [m^3/s] (v_b - v_a) . c an edge, current areas only; eight more are overwritten
 };
 
 /// What a part reports after its update: never checked inside, the step decides.
 struct PartReport {
-  double fastest = 0;           // [1/s] largest c/l over the nodes; dt = cfl/fastest
-  bool broken = false;          // some node with !(det F > 0), !(J > 0) where carried, or v not finite
-  double plastic_work = 0;      // [J] of what was committed (hencky_j2)
+  double fastest = 0;       // [1/s] largest c/l over the nodes; dt = cfl/fastest
+  bool broken = false;      // some node with !(det F > 0), !(J > 0) where carried, or v not finite
+  double plastic_work = 0;  // [J] of what was committed (hencky_j2)
 };
 
 /// What the gradient sweep adds to row L of a node.
@@ -168,21 +178,26 @@ enum class GradientCorrection { none, lagged, found };
 
 // The part functions; which of them a scene uses is picked once, in engine/registry.cpp. Definitions stand in the file named after each.
 template <bool tensor_jump, bool full_correction, NodeWeights>
-void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&);
+void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
+                   const Coefficients&);
 
 /// The edge loops return the power that the stabilisation takes out of the edges that the part counts [W], where they audit, else 0 (jst: always).
-template <Reconstruction, EdgeCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, bool audits, Materials = Materials::one>
-double edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+template <Reconstruction, EdgeCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, bool audits,
+          Materials = Materials::one>
+double edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
+                      const Coefficients&, const Scratch&);
 
 template <bool evolves_J>
-double edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+double edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
+                          const Coefficients&, const Scratch&);
 
 template <Reconstruction, UpwindMetric, bool audits>
-double current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&, const Scratch&);
+double current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
+                         const Coefficients&, const Scratch&);
 
 template <Formulation, GradientCorrection, Areas = Areas::undeformed, Materials = Materials::one>
-void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double* reactions,
-                            const Scratch&);
+void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&,
+                            const Constraint*, double* reactions, const Scratch&);
 
 template <Law, Volumetric, Isochoric, Formulation, Areas = Areas::undeformed, Parting = Parting::none>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);

@@ -6,38 +6,39 @@
 namespace nanson {
 
 namespace row {
-inline constexpr std::ptrdiff_t E = 8;     // an edge: {H_a C/2, -w | H_b C/2, w}, H of the stage's start, w [m^4 s/kg] of the stabilisation
-inline constexpr std::ptrdiff_t B = 12;    // a corner: {H_a C/8, 0 | H_b C/8, 0 | H_c C/8, 0}
-inline constexpr std::ptrdiff_t V = 4;     // {velocity that a pressure gives [m/s], its stabilisation S(d) [m^3/s]}
+inline constexpr std::ptrdiff_t E =
+    8;  // an edge: {H_a C/2, -w | H_b C/2, w}, H of the stage's start, w [m^4 s/kg] of the stabilisation
+inline constexpr std::ptrdiff_t B = 12;  // a corner: {H_a C/8, 0 | H_b C/8, 0 | H_c C/8, 0}
+inline constexpr std::ptrdiff_t V = 4;   // {velocity that a pressure gives [m/s], its stabilisation S(d) [m^3/s]}
 }  // namespace row
 
 /// Rows of the pressure's projection; those of the stage's start are only read.
 struct ProjectionRows {
-  const double *X, *W, *PH, *G;     // as in Rows
-  const double* length;             // [m] of the step rule
+  const double *X, *W, *PH, *G;  // as in Rows
+  const double* length;          // [m] of the step rule
   const Constraint* constraints;
-  const std::int32_t* held;         // per node: its constraint, -1 without
-  double *E, *B;                    // per edge, per corner
-  double* U;                        // {v, pressure | F, x} that is projected
-  double* H;                        // cof F of U, rows of row::H
-  double *volume, *taken;           // [-] Q, volume that the stabilisation has taken; [m^3/s] its rate, of the stage's start
-  double *new_volume, *new_taken;   // of U
-  double* fixed;                    // [m^3/s] what the residual keeps through a stage
-  double* lag;                      // [m^3/s] L_old
-  double* inverse_diagonal;         // of K, 0 without one
-  double* weight_sum;               // sum of w over the node's edges
-  double* R;                        // [m^3/s] residual
-  double* d;                        // [Pa] search direction, or the pressure increment of the pseudo-time solver
-  double* V;                        // rows of row::V
-  double* Kd;                       // K d [m^3/s]
-  double* removed;                  // [N] 3 a constraint: force of d along the held directions
+  const std::int32_t* held;  // per node: its constraint, -1 without
+  double *E, *B;             // per edge, per corner
+  double* U;                 // {v, pressure | F, x} that is projected
+  double* H;                 // cof F of U, rows of row::H
+  double *volume, *taken;    // [-] Q, volume that the stabilisation has taken; [m^3/s] its rate, of the stage's start
+  double *new_volume, *new_taken;  // of U
+  double* fixed;                   // [m^3/s] what the residual keeps through a stage
+  double* lag;                     // [m^3/s] L_old
+  double* inverse_diagonal;        // of K, 0 without one
+  double* weight_sum;              // sum of w over the node's edges
+  double* R;                       // [m^3/s] residual
+  double* d;                       // [Pa] search direction, or the pressure increment of the pseudo-time solver
+  double* V;                       // rows of row::V
+  double* Kd;                      // K d [m^3/s]
+  double* removed;                 // [N] 3 a constraint: force of d along the held directions
 };
 
 struct ProjectionCoefficients {
-  double rho = 0, inverse_kappa = 0;    // [kg/m^3], [1/Pa]
-  double beta_over_rho_cs = 0;          // [m^2 s/kg]
-  double theta = 0, dt = 0;             // [-] drift control, [s]
-  double still = 0;                     // [m/s] speeds below this times 1e-9 are rest
+  double rho = 0, inverse_kappa = 0;  // [kg/m^3], [1/Pa]
+  double beta_over_rho_cs = 0;        // [m^2 s/kg]
+  double theta = 0, dt = 0;           // [-] drift control, [s]
+  double still = 0;                   // [m/s] speeds below this times 1e-9 are rest
 };
 
 /// Sums that a part gives to a reduction.
@@ -56,8 +57,8 @@ NANSON_INLINE Vec4 area(const double* PH, double C0, double C1, double C2) {
 }
 
 /// The edge and corner rows: w = beta |c|^2/(|C| rho c_s), c = H_ave C. Seen from either end w is bitwise the same.
-inline void projection_edges_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const ProjectionRows& rows,
-                                  const ProjectionCoefficients& k) {
+inline void projection_edges_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners,
+                                  const NodeLists& lists, const ProjectionRows& rows, const ProjectionCoefficients& k) {
   for (int a = part.node_begin; a < part.node_end; ++a) {
     const double* PHa = rows.PH + row::PH * a;
     prefetch_edges(a, edges, lists);
@@ -67,13 +68,15 @@ inline void projection_edges_part(const Part& part, const EdgeArrays& edges, con
       Vec4 ha = area(PHa, C0, C1, C2), hb = area(rows.PH + row::PH * edges.b[e], C0, C1, C2);
       const Vec4 c = ha + hb;
       const double w = k.beta_over_rho_cs * dot3(c, c)[0] / edge_size(edges, e);
-      ha[3] = -w, hb[3] = w;
+      ha[3] = -w;
+      hb[3] = w;
       store8(rows.E + row::E * e, concat(ha, hb));
     }
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {
       const double C0 = 0.125 * corners.C[0][g], C1 = 0.125 * corners.C[1][g], C2 = 0.125 * corners.C[2][g];
       double* B = rows.B + row::B * g;
-      store4(B, area(PHa, C0, C1, C2)), store4(B + 4, area(rows.PH + row::PH * corners.b[g], C0, C1, C2));
+      store4(B, area(PHa, C0, C1, C2));
+      store4(B + 4, area(rows.PH + row::PH * corners.b[g], C0, C1, C2));
       store4(B + 8, area(rows.PH + row::PH * corners.c[g], C0, C1, C2));
     }
   }
@@ -93,9 +96,11 @@ NANSON_INLINE double free_square(const ProjectionRows& rows, int n, const double
 
 /// Before the iteration, with U at the end of the stage but for its velocity and pressure: H = cof F, Q += dt S/Omega; then what stays fixed in the residual,
 /// L_old - theta-term: L_old_a = -sum_b w (g_a + g_b)/2 . D, g = grad p_old (lagged Rhie-Chow), theta Omega (det F + Q - 1 - p_old/kappa)/dt; and diag K.
-inline void projection_start_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const ProjectionRows& rows, const ProjectionCoefficients& k) {
+inline void projection_start_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists,
+                                  const ProjectionRows& rows, const ProjectionCoefficients& k) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    const double inverse_volume = rows.X[row::X * n + 3], volume = 1.0 / inverse_volume, old_pressure = rows.W[row::W * n + 3];
+    const double inverse_volume = rows.X[row::X * n + 3], volume = 1.0 / inverse_volume,
+                 old_pressure = rows.W[row::W * n + 3];
     const Tensor<double> F = tensor_of(rows.U + row::U * n + 4, 4), H = cofactor(F);
     for (int m = 0; m < 9; ++m) rows.H[row::H * n + 4 * (m / 3) + m % 3] = H[m % 3][m / 3];
     rows.new_volume[n] = fma(k.dt * inverse_volume, rows.taken[n], rows.volume[n]);
@@ -112,7 +117,8 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
     };
     prefetch_lists(n, edges, lists);
     for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-      prefetch_row<row::X, 60>(Outward(), rows.X, edges, e), prefetch_row<row::G, 60, 2>(Outward(), rows.G, edges, e);
+      prefetch_row<row::X, 60>(Outward(), rows.X, edges, e);
+      prefetch_row<row::G, 60, 2>(Outward(), rows.G, edges, e);
       const double* E = rows.E + row::E * e;
       __builtin_prefetch(E + row::E * 64);
       add(edges.b[e], E[7], E);
@@ -122,7 +128,9 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
       add(lists.in_nodes[i], E[7], E + 4);
     }
     diagonal += weights + volume * k.inverse_kappa / k.dt;
-    rows.lag[n] = lag, rows.weight_sum[n] = weights, rows.inverse_diagonal[n] = diagonal > 0 ? 1.0 / diagonal : 0.0;
+    rows.lag[n] = lag;
+    rows.weight_sum[n] = weights;
+    rows.inverse_diagonal[n] = diagonal > 0 ? 1.0 / diagonal : 0.0;
     const double drift = determinant(F, H) + rows.new_volume[n] - 1.0 - old_pressure * k.inverse_kappa;
     rows.fixed[n] = fma(k.theta * volume / k.dt, drift, lag);
   }
@@ -130,7 +138,8 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
 
 /// Residual of the constraint, with the new H: R = D_H(v) + S(p) + L_old - Omega (p - p_old)/(kappa dt) + theta-term [m^3/s]; S(p)_a = sum_b w (p_b - p_a).
 /// Returns the sums of R^2/Omega, of Omega (|grad v|^2 + what counts as rest), and of R.
-inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners, const NodeLists& lists, const ProjectionRows& rows,
+inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges, const CornerArrays& corners,
+                                      const NodeLists& lists, const ProjectionRows& rows,
                                       const ProjectionCoefficients& k) {
   Three sum;
   for (int n = part.node_begin; n < part.node_end; ++n) {
@@ -138,11 +147,14 @@ inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges,
     Vec4 g0{}, g1{}, g2{};
     double S = 0;
     const auto add = [&](Vec4 d, double C0, double C1, double C2) {
-      g0 = fma(d, broadcast4(C0), g0), g1 = fma(d, broadcast4(C1), g1), g2 = fma(d, broadcast4(C2), g2);
+      g0 = fma(d, broadcast4(C0), g0);
+      g1 = fma(d, broadcast4(C1), g1);
+      g2 = fma(d, broadcast4(C2), g2);
     };
     prefetch_edges(n, edges, lists);
     for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-      prefetch_row<row::U, 60>(Outward(), rows.U, edges, e), __builtin_prefetch(rows.E + row::E * (e + 64));
+      prefetch_row<row::U, 60>(Outward(), rows.U, edges, e);
+      __builtin_prefetch(rows.E + row::E * (e + 64));
       const Vec4 d = load4(rows.U + row::U * edges.b[e]) - Ua;
       add(d, edges.C[0][e], edges.C[1][e], edges.C[2][e]);
       S = fma(rows.E[row::E * e + 7], d[3], S);
@@ -154,16 +166,20 @@ inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges,
       S = fma(rows.E[row::E * e + 7], d[3], S);
     }
     for (std::int32_t g = lists.corner[n]; g < lists.corner[n + 1]; ++g) {
-      const Vec4 d = ((load4(rows.U + row::U * corners.b[g]) - Ua) + (load4(rows.U + row::U * corners.c[g]) - Ua)) * 0.25;
+      const Vec4 d = ((load4(rows.U + row::U * corners.b[g]) - Ua) + (load4(rows.U + row::U * corners.c[g]) - Ua))
+                     * 0.25;
       add(d, corners.C[0][g], corners.C[1][g], corners.C[2][g]);
     }
     const double* H = rows.H + row::H * n;
-    const double D = 0.5 * (dot3(load4(H), g0) + dot3(load4(H + 4), g1) + dot3(load4(H + 8), g2))[0];  // 2 Omega grad v = g
+    const double D = 0.5
+                     * (dot3(load4(H), g0) + dot3(load4(H + 4), g1) + dot3(load4(H + 8), g2))[0];  // 2 Omega grad v = g
     const double inverse_volume = rows.X[row::X * n + 3], volume = 1.0 / inverse_volume;
     const double R = (D + S) + (rows.fixed[n] - volume * k.inverse_kappa / k.dt * (Ua[3] - rows.W[row::W * n + 3]));
-    rows.R[n] = R, rows.new_taken[n] = S + rows.lag[n];
+    rows.R[n] = R;
+    rows.new_taken[n] = S + rows.lag[n];
     const double rest = 1e-9 / rows.length[n], speed2 = dot3(Ua, Ua)[0] + k.still * k.still;
-    sum.s[0] += R * R * inverse_volume, sum.s[2] += R;
+    sum.s[0] += R * R * inverse_volume;
+    sum.s[2] += R;
     sum.s[1] += 0.25 * inverse_volume * (dot3(g0, g0) + dot3(g1, g1) + dot3(g2, g2))[0] + volume * rest * rest * speed2;
   }
   return sum;

@@ -28,7 +28,9 @@ NANSON_INLINE Vec4 reconstructed_jump(const Rows& rows, int a, int b, Vec4 plain
   else {
     const double *Ga = rows.G + row::G * a, *Gb = rows.G + row::G * b;
     if constexpr (reconstruction == Reconstruction::linear) return fma(sum_along(Ga, Gb, D), broadcast4(-0.5), plain);
-    else return fma(load4(rows.L + row::L * a) * along(Ga, D) + load4(rows.L + row::L * b) * along(Gb, D), broadcast4(-0.5), plain);
+    else
+      return fma(load4(rows.L + row::L * a) * along(Ga, D) + load4(rows.L + row::L * b) * along(Gb, D),
+                 broadcast4(-0.5), plain);
   }
 }
 
@@ -36,7 +38,8 @@ NANSON_INLINE Vec4 reconstructed_jump(const Rows& rows, int a, int b, Vec4 plain
 /// `rise`, `fall`: largest and least G.D/2 over the node's edges; `above`, `below`: distance to the largest and least neighbour. Component by component.
 NANSON_INLINE Vec4 barth_jespersen(Vec4 rise, Vec4 fall, Vec4 above, Vec4 below) {
   const Vec4 one = broadcast4(1.0), zero{};
-  const Vec4 up = choose(rise > zero, above / choose(rise > zero, rise, one), one), down = choose(fall < zero, below / choose(fall < zero, fall, one), one);
+  const Vec4 up = choose(rise > zero, above / choose(rise > zero, rise, one), one),
+             down = choose(fall < zero, below / choose(fall < zero, fall, one), one);
   return smaller(one, smaller(up, down));
 }
 

@@ -15,12 +15,14 @@ NANSON_INLINE PlasticState<Vec8> load_plastic(const double* p) {
   PlasticState<Vec8> z;
   Vec8 unused;
   Vec8* C = z.C_p_inv.a;
-  load_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p), load_transposed(p + 4, row::plastic, C[3], C[4], C[5], unused);
+  load_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p);
+  load_transposed(p + 4, row::plastic, C[3], C[4], C[5], unused);
   return z;
 }
 NANSON_INLINE void store_plastic(double* p, const PlasticState<Vec8>& z) {
   const Vec8* C = z.C_p_inv.a;
-  store_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p), store_transposed(p + 4, row::plastic, C[3], C[4], C[5], Vec8{});
+  store_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p);
+  store_transposed(p + 4, row::plastic, C[3], C[4], C[5], Vec8{});
 }
 
 /// sigma = P F^T / J: what fluxes with current areas take in place of H (method, section 8). [Pa]
@@ -28,7 +30,8 @@ NANSON_INLINE Tensor<Vec8> cauchy_stress(const Tensor<Vec8>& P, const Tensor<Vec
   const Vec8 inverse_J = 1.0 / J;
   Tensor<Vec8> sigma;
   for (int j = 0; j < 3; ++j)
-    for (int i = 0; i < 3; ++i) sigma[i][j] = fma(P[i][2], F[j][2], fma(P[i][1], F[j][1], P[i][0] * F[j][0])) * inverse_J;
+    for (int i = 0; i < 3; ++i)
+      sigma[i][j] = fma(P[i][2], F[j][2], fma(P[i][1], F[j][1], P[i][0] * F[j][0])) * inverse_J;
   return sigma;
 }
 
@@ -43,7 +46,8 @@ NANSON_INLINE void add_lagged(Tensor<Vec8>& P, const double* dP) {
 
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting, bool commits>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting,
+          bool commits>
 PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   using Law_ = Material<law, volumetric, isochoric, formulation>;
   const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
@@ -56,7 +60,8 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     load_transposed(U, row::U, v[0], v[1], v[2], J);
     for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
     if constexpr (formulation == Formulation::pFHJ)
-      for (int I = 0; I < 3; ++I) load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
+      for (int I = 0; I < 3; ++I)
+        load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
     Stress<Vec8> s;
     Mask8 sound = Vec8{} == 0.0;
     if constexpr (law == Law::hencky_j2) {
@@ -77,7 +82,11 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     if constexpr (parting == Parting::energy) add_parting(s, F, J, k.material.parting);
     if (k.leaves_lagged && rows.dP) add_lagged(s.P, rows.dP + row::dP * n);
 
-    store_rows(rows, n, v, !k.sweeps_J ? s.Sigma_J : formulation == Formulation::pF ? s.detF : J, s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
+    store_rows(rows, n, v,
+               !k.sweeps_J                      ? s.Sigma_J
+               : formulation == Formulation::pF ? s.detF
+                                                : J,
+               s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);
     if constexpr (formulation != Formulation::pF && law != Law::linear_elastic)
       c = larger(c, s.d2U * inverse_rho_cp * (k.deformed_metric ? root(s.H2) : s.H2));
@@ -97,7 +106,8 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
 template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting>
 PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
   if constexpr (law == Law::hencky_j2)
-    if (k.commits) return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, true>(part, rows, k, step_length);
+    if (k.commits)
+      return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, true>(part, rows, k, step_length);
   return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, false>(part, rows, k, step_length);
 }
 
@@ -113,8 +123,10 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
     load_transposed(U, row::U, v[0], v[1], v[2], J);
     for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
     if constexpr (formulation == Formulation::pFHJ)
-      for (int I = 0; I < 3; ++I) load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
-    if constexpr (law == Law::hencky_j2) density = Law_::energy(F, J, load_plastic(rows.plastic + row::plastic * n), k.material);
+      for (int I = 0; I < 3; ++I)
+        load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
+    if constexpr (law == Law::hencky_j2)
+      density = Law_::energy(F, J, load_plastic(rows.plastic + row::plastic * n), k.material);
     else density = Law_::energy(F, H, J, k.material);
     if constexpr (parting == Parting::energy) density = density + parting_energy(F, J, k.material.parting);
     load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);

@@ -6,7 +6,8 @@
 namespace nanson {
 
 /// What neighbours read of eight nodes: {v, swept} and, per column, {P | second}; whole cache lines, past the caches where the mesh is larger than they are.
-NANSON_INLINE void store_rows(const Rows& rows, int n, const Vec8 (&v)[3], Vec8 swept, const Tensor<Vec8>& P, const Tensor<Vec8>& second, bool streams) {
+NANSON_INLINE void store_rows(const Rows& rows, int n, const Vec8 (&v)[3], Vec8 swept, const Tensor<Vec8>& P,
+                              const Tensor<Vec8>& second, bool streams) {
   double *W = rows.W_new + row::W * n, *PH = rows.PH_new + row::PH * n;
   const Vec8 zero{};
   if (!streams) {
@@ -21,7 +22,8 @@ NANSON_INLINE void store_rows(const Rows& rows, int n, const Vec8 (&v)[3], Vec8 
   rows_of(v[0], v[1], v[2], swept, w);
   for (int i = 0; i < 8; i += 2) stream8(W + row::W * i, concat(w[i], w[i + 1]));
   for (int I = 0; I < 3; ++I) {
-    rows_of(P[0][I], P[1][I], P[2][I], zero, p), rows_of(second[0][I], second[1][I], second[2][I], zero, s);
+    rows_of(P[0][I], P[1][I], P[2][I], zero, p);
+    rows_of(second[0][I], second[1][I], second[2][I], zero, s);
     for (int i = 0; i < 8; ++i) stream8(PH + row::PH * i + 8 * I, concat(p[i], s[i]));
   }
 }

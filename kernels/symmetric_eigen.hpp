@@ -24,14 +24,17 @@ struct Spectrum {
 template <class Real>
 NANSON_INLINE void jacobi_rotation(Real& pp, Real& qq, Real& pq, Real& pr, Real& qr, Real (&p)[3], Real (&q)[3]) {
   const Real d = qq - pp, a = pq + pq;
-  const Real t = choose(d < 0.0, -a, a) / (choose(d < 0.0, -d, d) + root(d * d + a * a) + 1e-300);  // 0/0 of equal values becomes 0
+  const Real t = choose(d < 0.0, -a, a)
+                 / (choose(d < 0.0, -d, d) + root(d * d + a * a) + 1e-300);  // 0/0 of equal values becomes 0
   const Real c = 1.0 / root(t * t + 1.0), s = t * c;
   const auto turn = [&](Real& x, Real& y) {
     const Real x0 = x;
     x = c * x0 - s * y;
     y = c * y + s * x0;
   };
-  pp = pp - t * pq, qq = qq + t * pq, pq = Real{};
+  pp = pp - t * pq;
+  qq = qq + t * pq;
+  pq = Real{};
   turn(pr, qr);
   for (int k = 0; k < 3; ++k) turn(p[k], q[k]);
 }
@@ -49,7 +52,8 @@ NANSON_INLINE Symmetric<Real> composed(const Real (&value)[3], const Real (&axis
   return A;
 }
 
-inline constexpr int jacobi_sweeps = 4;  // convergence is quadratic: the off-diagonal rest is at round-off after the fourth (tested)
+inline constexpr int jacobi_sweeps =
+    4;  // convergence is quadratic: the off-diagonal rest is at round-off after the fourth (tested)
 
 template <class Real>
 NANSON_INLINE Spectrum<Real> symmetric_eigen(Symmetric<Real> A) {

@@ -24,7 +24,8 @@ NANSON_INLINE Real square_norm(const Symmetric<Real>& A) {
 template <class Real>
 NANSON_INLINE Symmetric<Real> cofactor(const Symmetric<Real>& A) {
   const auto minor = [&](int i, int j, int k, int l) { return A(i, k) * A(j, l) - A(i, l) * A(j, k); };
-  return {{minor(1, 2, 1, 2), minor(0, 2, 0, 2), minor(0, 1, 0, 1), minor(1, 2, 2, 0), minor(2, 0, 0, 1), minor(0, 1, 1, 2)}};
+  return {{minor(1, 2, 1, 2), minor(0, 2, 0, 2), minor(0, 1, 0, 1), minor(1, 2, 2, 0), minor(2, 0, 0, 1),
+           minor(0, 1, 1, 2)}};
 }
 
 /// Determinant from a tensor and its cofactor.
@@ -82,9 +83,14 @@ template <class Real>
 NANSON_INLINE Symmetric<Real> deviatoric_logarithm(const Symmetric<Real>& A) {
   const Real m = (A.a[0] + A.a[1] + A.a[2]) * (1.0 / 3.0), inverse_m = 1.0 / m;
   Symmetric<Real> X, M;
-  for (int k = 0; k < 6; ++k) X.a[k] = (k < 3 ? A.a[k] - m : A.a[k]) * inverse_m, M.a[k] = k < 3 ? X.a[k] + 2.0 : X.a[k];
+  for (int k = 0; k < 6; ++k) {
+    X.a[k] = (k < 3 ? A.a[k] - m : A.a[k]) * inverse_m;
+    M.a[k] = k < 3 ? X.a[k] + 2.0 : X.a[k];
+  }
   const Symmetric<Real> Y = commuting_product(X, inverse(M));
-  Symmetric<Real> ln = commuting_product(Y, polynomial(commuting_product(Y, Y), {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17}));
+  Symmetric<Real> ln = commuting_product(
+      Y, polynomial(commuting_product(Y, Y),
+                    {2.0, 2.0 / 3, 2.0 / 5, 2.0 / 7, 2.0 / 9, 2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17}));
   const Comparison<Real> near = (square_norm(Y) <= 0.15 * 0.15) & (m > 0.0);
   if (!all(near)) ln = choose(near, ln, by_spectrum(A, [](Real x) { return logarithm(x); }));
   return deviator(ln);
@@ -93,7 +99,8 @@ NANSON_INLINE Symmetric<Real> deviatoric_logarithm(const Symmetric<Real>& A) {
 /// e^A, of the same bits whatever the other lanes hold: I + A + A^2/2 + ... + A^11/11!, the rest at round-off for |A| <= 0.25.
 template <class Real>
 NANSON_INLINE Symmetric<Real> exponential(const Symmetric<Real>& A) {
-  const Symmetric<Real> e = polynomial(A, {1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040, 1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800});
+  const Symmetric<Real> e = polynomial(A, {1.0, 1.0, 1.0 / 2, 1.0 / 6, 1.0 / 24, 1.0 / 120, 1.0 / 720, 1.0 / 5040,
+                                           1.0 / 40320, 1.0 / 362880, 1.0 / 3628800, 1.0 / 39916800});
   const Comparison<Real> near = square_norm(A) <= 0.25 * 0.25;
   if (all(near)) return e;
   return choose(near, e, by_spectrum(A, [](Real x) { return exponential(x); }));

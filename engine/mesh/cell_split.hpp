@@ -11,7 +11,8 @@ using Cell = std::array<int, 8>;
 
 /// A tet is a path from corner 0 to corner 7 along three edges; in the last three the two middle corners are swapped, which makes
 /// them right-handed.
-inline constexpr std::array<std::array<int, 4>, 6> kuhn_tets{{{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}}};
+inline constexpr std::array<std::array<int, 4>, 6> kuhn_tets{
+    {{0, 1, 3, 7}, {0, 2, 6, 7}, {0, 4, 5, 7}, {0, 3, 2, 7}, {0, 6, 4, 7}, {0, 5, 1, 7}}};
 
 /// Directions in which the cell is mirrored by the alternating split: the diagonals then run from nodes of even to nodes of odd place.
 constexpr int parity_mirror(int i, int j, int k) { return (i & 1) | (j & 1) << 1 | (k & 1) << 2; }

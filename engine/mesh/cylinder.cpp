@@ -8,8 +8,9 @@
 namespace nanson {
 namespace {
 
-constexpr double bulge = 0.1;            // the core's corner is drawn in by this share: angles of 116 to 122 degrees meet there instead of 90 and 135
-constexpr double largest_core = 0.6;     // of the radius, so that a thin ring stays outside the core's corner
+constexpr double bulge =
+    0.1;  // the core's corner is drawn in by this share: angles of 116 to 122 degrees meet there instead of 90 and 135
+constexpr double largest_core = 0.6;  // of the radius, so that a thin ring stays outside the core's corner
 
 /// Cross-section. Core nodes (i, j) with i, j <= m stand at polar angles that the ring's lines continue: its node (layer, t), t the place along the arc, layer 0 on the
 /// core's edge, which runs up at i = m and back at j = m. Their parities, i and j against m + layer and t, agree there, so that the split conforms.
@@ -39,7 +40,8 @@ struct Section {
       return {p[1], p[0]};
     }
     const auto p = core_place(m, t);
-    const double inner = std::hypot(p[0], p[1]), share = static_cast<double>(layer) / layers, r = inner + share * (radius - inner);
+    const double inner = std::hypot(p[0], p[1]), share = static_cast<double>(layer) / layers,
+                 r = inner + share * (radius - inner);
     return {p[0] * (r / inner), p[1] * (r / inner)};
   }
 };
@@ -70,7 +72,8 @@ void add_ends(const Cell& cell, int mirror, int k, int levels, RawMesh& mesh) {
 void add_core(const Section& s, int k, int levels, RawMesh& mesh) {
   for (int j = 0; j < s.m; ++j)
     for (int i = 0; i < s.m; ++i) {
-      const Cell cell = cell_over({s.core(i, j), s.core(i + 1, j), s.core(i, j + 1), s.core(i + 1, j + 1)}, k, s.nodes());
+      const Cell cell = cell_over({s.core(i, j), s.core(i + 1, j), s.core(i, j + 1), s.core(i + 1, j + 1)}, k,
+                                  s.nodes());
       const int mirror = parity_mirror(i, j, k);
       add_tets(cell, mirror, mesh);
       if (i == 0) add_triangles(cell, mirror, 0, 0, x0, mesh);
@@ -82,7 +85,8 @@ void add_core(const Section& s, int k, int levels, RawMesh& mesh) {
 void add_ring(const Section& s, int k, int levels, RawMesh& mesh) {
   for (int t = 0; t < 2 * s.m; ++t)
     for (int layer = 0; layer < s.layers; ++layer) {
-      const Cell cell = cell_over({s.ring(layer, t), s.ring(layer + 1, t), s.ring(layer, t + 1), s.ring(layer + 1, t + 1)}, k, s.nodes());
+      const Cell cell = cell_over(
+          {s.ring(layer, t), s.ring(layer + 1, t), s.ring(layer, t + 1), s.ring(layer + 1, t + 1)}, k, s.nodes());
       const int mirror = parity_mirror(s.m + layer, t, k);
       add_tets(cell, mirror, mesh);
       if (t == 0) add_triangles(cell, mirror, 1, 0, y0, mesh);
@@ -104,7 +108,10 @@ RawMesh make_cylinder(const MeshSpec& spec) {
   mesh.X.reserve(at.size() * static_cast<std::size_t>(levels + 1));
   for (int k = 0; k <= levels; ++k)
     for (const auto& p : at) mesh.X.push_back({p[0], p[1], spec.length * k / levels});
-  for (int k = 0; k < levels; ++k) add_core(section, k, levels, mesh), add_ring(section, k, levels, mesh);
+  for (int k = 0; k < levels; ++k) {
+    add_core(section, k, levels, mesh);
+    add_ring(section, k, levels, mesh);
+  }
   mesh.tet_region.assign(mesh.tets.size(), 0);
   return mesh;
 }

@@ -10,12 +10,12 @@ namespace nanson {
 
 /// What a generator or a reader delivers, unchecked.
 struct RawMesh {
-  std::vector<Vec3> X;                             // [m]
-  std::vector<std::array<int, 4>> tets;            // node indices from 0
-  std::vector<int> tet_region;                     // index into region_names, one per tet
+  std::vector<Vec3> X;                   // [m]
+  std::vector<std::array<int, 4>> tets;  // node indices from 0
+  std::vector<int> tet_region;           // index into region_names, one per tet
   std::vector<std::string> region_names;
-  std::vector<std::array<int, 3>> triangles;       // named boundary triangles, any orientation
-  std::vector<int> triangle_patch;                 // index into patch_names, one per triangle
+  std::vector<std::array<int, 3>> triangles;  // named boundary triangles, any orientation
+  std::vector<int> triangle_patch;            // index into patch_names, one per triangle
   std::vector<std::string> patch_names;
 };
 
@@ -23,19 +23,19 @@ struct RawMesh {
 struct Face {
   std::array<int, 3> nodes;
   int tet;
-  int patch;                                       // index into patch_names, -1 where the mesh names none
+  int patch;  // index into patch_names, -1 where the mesh names none
 };
 
 /// A checked mesh: all tets positively oriented, every node used, the boundary closed and manifold.
 struct Mesh {
-  std::vector<Vec3> X;                             // [m]
+  std::vector<Vec3> X;  // [m]
   std::vector<std::array<int, 4>> tets;
   std::vector<int> tet_region;
   std::vector<std::string> region_names;
-  std::vector<Face> faces;                         // sorted by their nodes
-  std::vector<std::string> patch_names;            // those that have a boundary face, in the order of the raw mesh
-  int reoriented = 0;                              // tets whose nodes were swapped to make their volume positive
-  int unnamed_faces = 0;                           // boundary triangles of no patch: traction free
+  std::vector<Face> faces;               // sorted by their nodes
+  std::vector<std::string> patch_names;  // those that have a boundary face, in the order of the raw mesh
+  int reoriented = 0;                    // tets whose nodes were swapped to make their volume positive
+  int unnamed_faces = 0;                 // boundary triangles of no patch: traction free
 };
 
 /// Corners of the face opposite each node of a right-handed tet, counter-clockwise from outside.

@@ -16,10 +16,12 @@ struct FaceTable {
     int tet;
     std::uint64_t key() const { return std::uint64_t{middle} << 32 | largest; }
   };
-  std::vector<std::size_t> first;                  // per node, where its row starts; one more at the end
+  std::vector<std::size_t> first;  // per node, where its row starts; one more at the end
   std::vector<Entry> entries;
 
-  std::span<const Entry> row(int node) const { return {entries.data() + first[node], entries.data() + first[node + 1]}; }
+  std::span<const Entry> row(int node) const {
+    return {entries.data() + first[node], entries.data() + first[node + 1]};
+  }
 };
 
 FaceTable face_table(std::size_t nodes, const std::vector<std::array<int, 4>>& tets);

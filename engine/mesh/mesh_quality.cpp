@@ -16,7 +16,10 @@ double distance2(const Vec3& a, const Vec3& b) {
 
 double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   Vec3 u, v;
-  for (int i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+  }
   return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
 }
 
@@ -44,7 +47,8 @@ void add_tet(const Mesh& mesh, int t, MeshQuality& q) {
 }  // namespace
 
 double mean_ratio(const Vec3& a, const Vec3& b, const Vec3& c, const Vec3& d) {
-  const double edges2 = distance2(a, b) + distance2(a, c) + distance2(a, d) + distance2(b, c) + distance2(b, d) + distance2(c, d);
+  const double edges2 = distance2(a, b) + distance2(a, c) + distance2(a, d) + distance2(b, c) + distance2(b, d)
+                        + distance2(c, d);
   const double root = std::cbrt(3 * std::max(0.0, tet_volume(a, b, c, d)));
   return 12 * root * root / edges2;
 }
@@ -71,13 +75,17 @@ std::string to_text(const MeshQuality& q) {
   std::string text = fmt::format("nodes {}, tets {}, boundary faces {}\n", q.nodes, q.tets, q.boundary_faces);
   text += fmt::format("volume {:.6g} m^3, of a tet {:.3g} to {:.3g} m^3; ", q.volume, q.min_volume, q.max_volume);
   text += fmt::format("edges {:.3g} to {:.3g} m\n", q.min_edge, q.max_edge);
-  text += fmt::format("worst mean ratio {:.3f} (1 is regular): tet {} at ({:.6g}, {:.6g}, {:.6g})\n", q.worst, q.worst_tet, c[0], c[1], c[2]);
+  text += fmt::format("worst mean ratio {:.3f} (1 is regular): tet {} at ({:.6g}, {:.6g}, {:.6g})\n", q.worst,
+                      q.worst_tet, c[0], c[1], c[2]);
   text += "tets by mean ratio";
   for (int bin = 0; bin < 10; ++bin)
     if (q.histogram[bin]) text += fmt::format("  {:.1f}-{:.1f}: {}", bin / 10.0, (bin + 1) / 10.0, q.histogram[bin]);
   text += "\n";
-  for (const auto& patch : q.patches) text += fmt::format("face {}: {} triangles, {:.6g} m^2\n", patch.name, patch.faces, patch.area);
-  if (q.unnamed.faces) text += fmt::format("boundary triangles without a name: {} ({:.6g} m^2), traction free\n", q.unnamed.faces, q.unnamed.area);
+  for (const auto& patch : q.patches)
+    text += fmt::format("face {}: {} triangles, {:.6g} m^2\n", patch.name, patch.faces, patch.area);
+  if (q.unnamed.faces)
+    text += fmt::format("boundary triangles without a name: {} ({:.6g} m^2), traction free\n", q.unnamed.faces,
+                        q.unnamed.area);
   return text;
 }
 

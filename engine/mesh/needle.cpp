@@ -12,20 +12,25 @@ enum Patch { inner, outer, sides };
 /// Cells across Y, across Z and along the radius, and nodes in that order. The angle to X seen along Y or Z is the same all over a side, which is therefore plane.
 struct Needle {
   std::array<int, 3> cells;
-  double inner, outer;             // [m]
-  double angle;                    // [rad]
+  double inner, outer;  // [m]
+  double angle;         // [rad]
 
   int node(int i, int j, int k) const { return (k * (cells[1] + 1) + j) * (cells[0] + 1) + i; }
-  double slope(int direction, int i) const { return std::tan(0.5 * angle * (2 * i - cells[static_cast<std::size_t>(direction)]) / cells[static_cast<std::size_t>(direction)]); }
+  double slope(int direction, int i) const {
+    return std::tan(0.5 * angle * (2 * i - cells[static_cast<std::size_t>(direction)])
+                    / cells[static_cast<std::size_t>(direction)]);
+  }
   Vec3 place(int i, int j, int k) const {
-    const double y = slope(0, i), z = slope(1, j), r = inner + (outer - inner) * k / cells[2], scale = r / std::sqrt(1 + y * y + z * z);
+    const double y = slope(0, i), z = slope(1, j), r = inner + (outer - inner) * k / cells[2],
+                 scale = r / std::sqrt(1 + y * y + z * z);
     return {scale, scale * y, scale * z};
   }
 };
 
 void add_cell(const Needle& needle, int i, int j, int k, RawMesh& mesh) {
   Cell cell;
-  for (int bits = 0; bits < 8; ++bits) cell[static_cast<std::size_t>(bits)] = needle.node(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2 & 1));
+  for (int bits = 0; bits < 8; ++bits)
+    cell[static_cast<std::size_t>(bits)] = needle.node(i + (bits & 1), j + (bits >> 1 & 1), k + (bits >> 2 & 1));
   const std::array<int, 3> at{i, j, k};
   const int mirror = parity_mirror(i, j, k);
   add_tets(cell, mirror, mesh);

@@ -55,7 +55,8 @@ void read_elements(MshCursor& in, MshContent& content) {
     const int nodes = node_count(in, type);
     if (in.binary) in_block = in.read<std::int32_t>();
     if (in_block < 1 || std::size_t(in_block) > count - read)
-      in.fail(fmt::format("a block of {} elements where {} of {} are left: the file is damaged", in_block, count - read, count));
+      in.fail(fmt::format("a block of {} elements where {} of {} are left: the file is damaged", in_block, count - read,
+                          count));
     const auto tags = in.count<std::int32_t>("element tags", 2, 4);
     for (std::int64_t i = 0; i < in_block; ++i) {
       if (in.binary) element = in.read<std::int32_t>();

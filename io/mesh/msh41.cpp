@@ -13,7 +13,7 @@ namespace nanson::msh41 {
 namespace {
 
 struct Block {
-  std::int64_t dimension, entity, kind;            // kind: parametric or the element type
+  std::int64_t dimension, entity, kind;  // kind: parametric or the element type
   std::size_t count;
 };
 
@@ -21,12 +21,14 @@ struct Block {
 Block read_block(MshCursor& in, std::string_view what, std::size_t announced, std::size_t read) {
   Block block{};
   block.dimension = in.read<std::int32_t>();
-  if (block.dimension < 0 || block.dimension > 3) in.fail(fmt::format("an entity has the dimension {}", block.dimension));
+  if (block.dimension < 0 || block.dimension > 3)
+    in.fail(fmt::format("an entity has the dimension {}", block.dimension));
   block.entity = in.read<std::int32_t>();
   block.kind = in.read<std::int32_t>();
   const auto count = in.read<std::int64_t>();
   if (count < 0 || std::size_t(count) > announced - read)
-    in.fail(fmt::format("a block of {} {} where {} of {} are left: the file is damaged", count, what, announced - read, announced));
+    in.fail(fmt::format("a block of {} {} where {} of {} are left: the file is damaged", count, what, announced - read,
+                        announced));
   block.count = std::size_t(count);
   return block;
 }

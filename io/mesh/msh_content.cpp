@@ -14,10 +14,11 @@ namespace {
 /// Shapes by gmsh's element type, for messages only.
 const std::map<std::int64_t, std::string>& shapes() {
   static const std::map<std::int64_t, std::string> table{
-      {3, "4-node quadrangle"}, {5, "8-node hexahedron"}, {6, "6-node prism"}, {7, "5-node pyramid"},
-      {8, "3-node line"}, {9, "6-node triangle"}, {10, "9-node quadrangle"}, {11, "10-node tetrahedron"}, {12, "27-node hexahedron"},
-      {13, "18-node prism"}, {14, "14-node pyramid"}, {16, "8-node quadrangle"}, {17, "20-node hexahedron"}, {18, "15-node prism"},
-      {19, "13-node pyramid"}, {20, "9-node triangle"}, {21, "10-node triangle"}, {26, "4-node line"}, {29, "20-node tetrahedron"}};
+      {3, "4-node quadrangle"},   {5, "8-node hexahedron"}, {6, "6-node prism"},        {7, "5-node pyramid"},
+      {8, "3-node line"},         {9, "6-node triangle"},   {10, "9-node quadrangle"},  {11, "10-node tetrahedron"},
+      {12, "27-node hexahedron"}, {13, "18-node prism"},    {14, "14-node pyramid"},    {16, "8-node quadrangle"},
+      {17, "20-node hexahedron"}, {18, "15-node prism"},    {19, "13-node pyramid"},    {20, "9-node triangle"},
+      {21, "10-node triangle"},   {26, "4-node line"},      {29, "20-node tetrahedron"}};
   return table;
 }
 
@@ -70,8 +71,9 @@ void set_regions(const MshContent& content, RawMesh& mesh, std::vector<std::stri
     if (names.size() > 1 && std::find(told.begin(), told.end(), run.entity) == told.end()) {
       told.push_back(run.entity);
       shared.add([&] {
-        return fmt::format("volume {} is in {} physical groups, among them \"{}\" and \"{}\": put every volume into one only", run.entity,
-                           names.size(), names[0], names[1]);
+        return fmt::format(
+            "volume {} is in {} physical groups, among them \"{}\" and \"{}\": put every volume into one only",
+            run.entity, names.size(), names[0], names[1]);
       });
     }
     mesh.tet_region.resize(run.end, id_of(names.empty() ? "unnamed" : names[0], mesh.region_names));
@@ -105,7 +107,10 @@ void drop_construction_points(const std::vector<char>& on_skeleton, RawMesh& mes
   std::vector<int> now(mesh.X.size(), -1);
   int kept = 0;
   for (std::size_t a = 0; a < now.size(); ++a)
-    if (keep[a]) mesh.X[kept] = mesh.X[a], now[a] = kept++;
+    if (keep[a]) {
+      mesh.X[kept] = mesh.X[a];
+      now[a] = kept++;
+    }
   mesh.X.resize(kept);
   for (auto& tet : mesh.tets)
     for (int& a : tet) a = now[a];
@@ -131,7 +136,8 @@ std::pair<std::int64_t, bool> NodeIndex::build(const std::vector<std::int64_t>& 
   }
   for (std::size_t i = 0; i < tags.size(); ++i) sorted_.push_back({tags[i], int(i)});
   std::sort(sorted_.begin(), sorted_.end());
-  const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end(), [](const auto& s, const auto& t) { return s.first == t.first; });
+  const auto twice = std::adjacent_find(sorted_.begin(), sorted_.end(),
+                                        [](const auto& s, const auto& t) { return s.first == t.first; });
   return twice == sorted_.end() ? std::pair{std::int64_t{0}, false} : std::pair{twice->first, true};
 }
 
@@ -153,7 +159,8 @@ int node_count(const MshCursor& in, std::int64_t type) {
   }
   const auto shape = shapes().find(type);
   const bool first_order = type == 3 || (type >= 5 && type <= 7);
-  in.fail(fmt::format("element type {}{} is not supported: mesh with {}", type, shape == shapes().end() ? "" : " (" + shape->second + ")",
+  in.fail(fmt::format("element type {}{} is not supported: mesh with {}", type,
+                      shape == shapes().end() ? "" : " (" + shape->second + ")",
                       first_order ? "triangles and tetrahedra only" : "first order elements"));
 }
 
@@ -171,7 +178,8 @@ void read_element(MshCursor& in, std::int64_t element, int nodes, std::int64_t e
   for (int v = 0; v < nodes; ++v) {
     const std::int64_t tag = in.read<OnDisk>();
     index[v] = content.index.find(tag);
-    if (index[v] < 0) in.fail(fmt::format("element {} has the node {}, which is not among the nodes of the file", element, tag));
+    if (index[v] < 0)
+      in.fail(fmt::format("element {} has the node {}, which is not among the nodes of the file", element, tag));
   }
   if (nodes == 4) content.tets.add(entity, index);
   else if (nodes == 3) content.triangles.add(entity, {index[0], index[1], index[2]});

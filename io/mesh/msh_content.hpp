@@ -16,7 +16,7 @@ class NodeIndex {
  public:
   /// Returns a tag that occurs twice, if there is one, as {tag, true}.
   std::pair<std::int64_t, bool> build(const std::vector<std::int64_t>& tags);
-  int find(std::int64_t tag) const;                // -1 where there is none
+  int find(std::int64_t tag) const;  // -1 where there is none
 
  private:
   std::int64_t first_ = 0;
@@ -24,7 +24,7 @@ class NodeIndex {
   std::vector<std::pair<std::int64_t, int>> sorted_;
 };
 
-using MshGroup = std::pair<int, std::int64_t>;     // dimension and tag
+using MshGroup = std::pair<int, std::int64_t>;  // dimension and tag
 
 /// Elements of one dimension in file order. A run is a stretch of elements on one entity.
 template <std::size_t nodes>
@@ -44,11 +44,12 @@ struct MshElements {
 };
 
 struct MshContent {
-  std::map<MshGroup, std::string> names;                          // of physical groups
-  std::map<MshGroup, std::vector<std::int64_t>> groups;           // physical tags of an entity; version 2.2: entity = physical tag
-  std::vector<Vec3> X;                                            // [m]
+  std::map<MshGroup, std::string> names;  // of physical groups
+  std::map<MshGroup, std::vector<std::int64_t>>
+      groups;           // physical tags of an entity; version 2.2: entity = physical tag
+  std::vector<Vec3> X;  // [m]
   NodeIndex index;
-  std::vector<char> on_skeleton;                                  // per node: whether a point or line element uses it
+  std::vector<char> on_skeleton;  // per node: whether a point or line element uses it
   MshElements<3> triangles;
   MshElements<4> tets;
 };

@@ -11,7 +11,8 @@ namespace {
 /// For messages: at most 30 characters, and no bytes of binary data.
 std::string shown(std::string_view text) {
   std::string clean(text.substr(0, 30));
-  std::replace_if(clean.begin(), clean.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
+  std::replace_if(
+      clean.begin(), clean.end(), [](unsigned char c) { return c < 32 || c > 126; }, '?');
   return text.size() > 30 ? clean + "..." : clean;
 }
 
@@ -20,7 +21,8 @@ std::string shown(std::string_view text) {
 std::size_t MshCursor::checked_count(std::int64_t count, std::string_view what, std::size_t bytes) const {
   if (count < 0) fail(fmt::format("the number of {} is {}, below zero", what, count));
   if (std::size_t(count) > std::size_t(end_ - at_) / bytes + 1)
-    fail(fmt::format("the file says {} {} follow, more than its remaining {} bytes can hold: it is cut off or damaged", count, what, end_ - at_));
+    fail(fmt::format("the file says {} {} follow, more than its remaining {} bytes can hold: it is cut off or damaged",
+                     count, what, end_ - at_));
   return std::size_t(count);
 }
 
@@ -73,7 +75,8 @@ void MshCursor::fail_at_end() const { fail("the file ends here: it is cut off");
 void MshCursor::fail_number(bool whole) const {
   if (at_ == end_) fail_at_end();
   const char* stop = std::find_if(at_, end_, is_space);
-  fail(fmt::format("expected a {}, found \"{}\"", whole ? "whole number" : "number", shown({at_, std::size_t(stop - at_)})));
+  fail(fmt::format("expected a {}, found \"{}\"", whole ? "whole number" : "number",
+                   shown({at_, std::size_t(stop - at_)})));
 }
 
 }  // namespace nanson

@@ -17,7 +17,8 @@ struct MshError : std::runtime_error {
 
 class MshCursor {
  public:
-  explicit MshCursor(std::string_view bytes) : begin_(bytes.data()), at_(begin_), token_(begin_), end_(begin_ + bytes.size()) {}
+  explicit MshCursor(std::string_view bytes)
+      : begin_(bytes.data()), at_(begin_), token_(begin_), end_(begin_ + bytes.size()) {}
 
   /// Whether read() takes binary values; names and headings are always text.
   bool binary = false;
@@ -53,12 +54,12 @@ class MshCursor {
   }
   std::size_t checked_count(std::int64_t count, std::string_view what, std::size_t bytes) const;
 
-  bool at_end();                                   // nothing but white space is left
+  bool at_end();  // nothing but white space is left
   std::string_view word();
-  std::string_view rest_of_line();                 // and steps over its end
-  void end_of_line();                              // nothing else may follow on this line: binary data starts right after it
+  std::string_view rest_of_line();  // and steps over its end
+  void end_of_line();               // nothing else may follow on this line: binary data starts right after it
   void expect(std::string_view word);
-  void skip_past(std::string_view line);           // to the end of the next line that starts with these characters
+  void skip_past(std::string_view line);  // to the end of the next line that starts with these characters
   [[noreturn]] void fail(const std::string& what) const;  // at the token read last
 
  private:

@@ -24,7 +24,8 @@ std::string path_problem(const std::filesystem::path& path) {
   if (kind == std::filesystem::file_type::not_found) return "there is no such file";
   if (kind != std::filesystem::file_type::regular) return "this is not a file";
   if (path.extension() == ".step" || path.extension() == ".stp")
-    return fmt::format("mesh it first: gmsh -3 {} -o {}", path.string(), std::filesystem::path(path).replace_extension(".msh").string());
+    return fmt::format("mesh it first: gmsh -3 {} -o {}", path.string(),
+                       std::filesystem::path(path).replace_extension(".msh").string());
   if (path.extension() != ".msh" && path.extension() != ".geo")
     return fmt::format("unknown file ending \"{}\": meshes are Gmsh .msh or .geo files", path.extension().string());
   return {};
@@ -33,7 +34,8 @@ std::string path_problem(const std::filesystem::path& path) {
 Version read_format(MshCursor& in) {
   const double version = in.number<double>();
   if (version != 2.2 && version != 4.1)
-    in.fail(fmt::format("version {} of the .msh format is not supported: save as 4.1 (gmsh -format msh41) or 2.2", version));
+    in.fail(fmt::format("version {} of the .msh format is not supported: save as 4.1 (gmsh -format msh41) or 2.2",
+                        version));
   const auto mode = in.number<std::int64_t>();
   if (mode != 0 && mode != 1) in.fail(fmt::format("file type {} is neither 0 (text) nor 1 (binary)", mode));
   const auto real = in.number<std::int64_t>();
@@ -63,14 +65,16 @@ void read_names(MshCursor& in, MshContent& content) {
 
 /// Whether the section matters; others are skipped.
 bool is_read(std::string_view name, Version version) {
-  return name == "$PhysicalNames" || name == "$Nodes" || name == "$Elements" || name == (version == Version::v22 ? "$ParametricNodes" : "$Entities");
+  return name == "$PhysicalNames" || name == "$Nodes" || name == "$Elements"
+         || name == (version == Version::v22 ? "$ParametricNodes" : "$Entities");
 }
 
 void read_section(MshCursor& in, std::string_view name, Version version, MshContent& content) {
   if (name == "$PhysicalNames") return read_names(in, content);
   in.end_of_line();
   if (name == "$Entities") return msh41::read_entities(in, content);
-  if (name == "$Elements") return version == Version::v22 ? msh22::read_elements(in, content) : msh41::read_elements(in, content);
+  if (name == "$Elements")
+    return version == Version::v22 ? msh22::read_elements(in, content) : msh41::read_elements(in, content);
   if (version == Version::v22) return msh22::read_nodes(in, name == "$ParametricNodes", content);
   msh41::read_nodes(in, content);
 }
@@ -81,8 +85,10 @@ MshContent read_content(MshCursor& in) {
   std::set<std::string, std::less<>> seen;
   while (!in.at_end()) {
     const std::string name(in.word());
-    if (name[0] != '$') in.fail("expected the heading of a section, such as $Nodes: this is not a Gmsh .msh file, or it is damaged");
-    if (name == "$PartitionedEntities") in.fail("the mesh is partitioned: save it without partitions, nanson makes its own");
+    if (name[0] != '$')
+      in.fail("expected the heading of a section, such as $Nodes: this is not a Gmsh .msh file, or it is damaged");
+    if (name == "$PartitionedEntities")
+      in.fail("the mesh is partitioned: save it without partitions, nanson makes its own");
     if (name == "$MeshFormat" && version == Version::none) {
       version = read_format(in);
       continue;
@@ -94,7 +100,8 @@ MshContent read_content(MshCursor& in) {
       in.skip_past(end);
       continue;
     }
-    if (!seen.insert(name == "$ParametricNodes" ? "$Nodes" : name).second) in.fail(fmt::format("a second section {}", name));
+    if (!seen.insert(name == "$ParametricNodes" ? "$Nodes" : name).second)
+      in.fail(fmt::format("a second section {}", name));
     if (name == "$Elements" && !seen.contains("$Nodes")) in.fail("$Elements must come after $Nodes");
     read_section(in, name, version, content);
     in.expect(end);
@@ -173,17 +180,17 @@ Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
   std::vector<std::string> problems;
   Mesh mesh;
   if (spec.source != MeshSource::file) {
-    double nodes = 1;                              // a bound for the cylinder, whose core has fewer
+    double nodes = 1;  // a bound for the cylinder, whose core has fewer
     for (const int n : spec.cells) nodes *= n + 1.0;
     if (6 * nodes > std::numeric_limits<int>::max())
       problems.push_back(fmt::format("{:.3g} nodes are more than can be numbered: take fewer cells", nodes));
-    else
-      mesh = finish_mesh(make_mesh(spec), problems);
+    else mesh = finish_mesh(make_mesh(spec), problems);
     for (const auto& problem : problems) errors.push_back(fmt::format("mesh.{}: {}", word(spec.source), problem));
     return mesh;
   }
   const MshFile file(spec.file.name);
-  for (const auto& problem : file.problems) errors.push_back(fmt::format("{}: mesh.file = \"{}\": {}", spec.file.where, spec.file.name, problem));
+  for (const auto& problem : file.problems)
+    errors.push_back(fmt::format("{}: mesh.file = \"{}\": {}", spec.file.where, spec.file.name, problem));
   if (!file.problems.empty()) return mesh;
   const std::size_t before = errors.size();
   RawMesh raw = read_file(file.path, spec.file.name, errors);

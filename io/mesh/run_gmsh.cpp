@@ -18,8 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Ended {
-  int error = 0;                                   // errno: the program could not be started
-  int status = 0;                                  // as from waitpid
+  int error = 0;   // errno: the program could not be started
+  int status = 0;  // as from waitpid
 };
 
 /// Runs a program found in PATH without a shell; what it prints goes to `log`.
@@ -49,7 +49,8 @@ std::vector<std::string> errors_in(const fs::path& log) {
   std::ifstream in(log);
   for (std::string line; std::getline(in, line) && errors.size() < most;) {
     const auto colon = line.find(':');
-    if (line.starts_with("Error") && colon != std::string::npos) errors.push_back("gmsh: " + line.substr(line.find_first_not_of(" \t", colon + 1)));
+    if (line.starts_with("Error") && colon != std::string::npos)
+      errors.push_back("gmsh: " + line.substr(line.find_first_not_of(" \t", colon + 1)));
   }
   return errors;
 }
@@ -58,7 +59,8 @@ std::vector<std::string> errors_in(const fs::path& log) {
 
 ScratchFolder::ScratchFolder() {
   std::string name = (fs::temp_directory_path() / "nanson_XXXXXX").string();
-  if (::mkdtemp(name.data()) == nullptr) throw fs::filesystem_error("cannot make a temporary folder", name, std::error_code(errno, std::generic_category()));
+  if (::mkdtemp(name.data()) == nullptr)
+    throw fs::filesystem_error("cannot make a temporary folder", name, std::error_code(errno, std::generic_category()));
   path_ = name;
 }
 
@@ -71,8 +73,12 @@ std::vector<std::string> run_gmsh(const fs::path& geo, const fs::path& msh) {
   const fs::path log = fs::path(msh).replace_extension(".log");
   std::error_code ignored;
   fs::remove(msh, ignored);
-  const Ended ended = run_program({"gmsh", "-3", "-format", "msh41", "-nt", "1", "-o", msh.string(), fs::absolute(geo).string()}, log);
-  if (ended.error == ENOENT) return {"the program gmsh, which meshes it, is not installed: apt-get install gmsh, or mesh it elsewhere and name the .msh file"};
+  const Ended ended = run_program(
+      {"gmsh", "-3", "-format", "msh41", "-nt", "1", "-o", msh.string(), fs::absolute(geo).string()}, log);
+  if (ended.error == ENOENT)
+    return {
+        "the program gmsh, which meshes it, is not installed: apt-get install gmsh, or mesh it elsewhere and name the "
+        ".msh file"};
   if (ended.error != 0) return {fmt::format("gmsh cannot be started: {}", std::strerror(ended.error))};
   const bool failed = !WIFEXITED(ended.status) || WEXITSTATUS(ended.status) != 0;
   std::vector<std::string> errors = errors_in(log);

@@ -9,7 +9,7 @@ namespace nanson {
 /// A folder of its own below the system's temporary one, removed with everything in it.
 class ScratchFolder {
  public:
-  ScratchFolder();                                 // throws std::filesystem::filesystem_error
+  ScratchFolder();  // throws std::filesystem::filesystem_error
   ~ScratchFolder();
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;

@@ -90,10 +90,14 @@ hid_t type() {
   }
 }
 
-inline bool has_link(hid_t at, const std::string& name) { return check(H5Lexists(at, name.c_str(), H5P_DEFAULT), name) > 0; }
+inline bool has_link(hid_t at, const std::string& name) {
+  return check(H5Lexists(at, name.c_str(), H5P_DEFAULT), name) > 0;
+}
 inline bool has_attribute(hid_t at, const std::string& name) { return check(H5Aexists(at, name.c_str()), name) > 0; }
 inline Handle open_group(hid_t at, const std::string& name) { return {H5Gopen2(at, name.c_str(), H5P_DEFAULT), name}; }
-inline Handle open_dataset(hid_t at, const std::string& name) { return {H5Dopen2(at, name.c_str(), H5P_DEFAULT), name}; }
+inline Handle open_dataset(hid_t at, const std::string& name) {
+  return {H5Dopen2(at, name.c_str(), H5P_DEFAULT), name};
+}
 inline Handle create_group(hid_t at, const std::string& name, hid_t creation = H5P_DEFAULT) {
   return {H5Gcreate2(at, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), name};
 }
@@ -162,9 +166,10 @@ void write_view(hid_t at, const std::string& name, const std::string& source, hs
 template <class T>
 void set_attribute(hid_t at, const std::string& name, T value) {
   const Handle space(H5Screate(H5S_SCALAR), name);
-  const Handle attribute(
-      has_attribute(at, name) ? H5Aopen(at, name.c_str(), H5P_DEFAULT) : H5Acreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, H5P_DEFAULT),
-      name);
+  const Handle attribute(has_attribute(at, name)
+                             ? H5Aopen(at, name.c_str(), H5P_DEFAULT)
+                             : H5Acreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, H5P_DEFAULT),
+                         name);
   check(H5Awrite(attribute, type<T>(), &value), name);
 }
 

@@ -40,9 +40,14 @@ RunHistory read_history(const std::filesystem::path& file) {
   RunHistory h;
   const auto table = read_csv(file, why);
   if (!table) return h;
-  h.t = table->numbers("t"), h.kinetic = table->numbers("kinetic"), h.strain = table->numbers("strain");
-  h.external_work = table->numbers("external_work"), h.angular_momentum_work = table->numbers("angular_momentum_work");
-  h.min_detF = table->numbers("min_detF"), h.min_J = table->numbers("min_J"), h.min_tet_ratio = table->numbers("min_tet_ratio");
+  h.t = table->numbers("t");
+  h.kinetic = table->numbers("kinetic");
+  h.strain = table->numbers("strain");
+  h.external_work = table->numbers("external_work");
+  h.angular_momentum_work = table->numbers("angular_momentum_work");
+  h.min_detF = table->numbers("min_detF");
+  h.min_J = table->numbers("min_J");
+  h.min_tet_ratio = table->numbers("min_tet_ratio");
   return h;
 }
 

@@ -21,15 +21,18 @@ fs::path folder_of(const std::string& scene, const std::optional<fs::path>& out)
     return *out;
   }
   if (scene.empty() || scene == "." || scene == ".." || scene.find('/') != std::string::npos)
-    throw FolderError(fmt::format("the scene's name \"{}\" cannot be the name of a folder; name one with --out", scene));
+    throw FolderError(
+        fmt::format("the scene's name \"{}\" cannot be the name of a folder; name one with --out", scene));
   return fs::path("results") / scene;
 }
 
 void create(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) throw FolderError(fmt::format("{}: is a file, not a folder", folder.string()));
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error))
+    throw FolderError(fmt::format("{}: is a file, not a folder", folder.string()));
   fs::create_directories(folder, error);
-  if (error) throw FolderError(fmt::format("{}: the folder could not be created: {}", folder.string(), error.message()));
+  if (error)
+    throw FolderError(fmt::format("{}: the folder could not be created: {}", folder.string(), error.message()));
 }
 
 std::string holder(int fd) {
@@ -41,20 +44,25 @@ std::string holder(int fd) {
 /// The process number in the file is for the message only. The file stays when the run ends: removing it would let two runs lock two different files.
 Descriptor lock(const fs::path& folder) {
   Descriptor file(folder / ".lock", O_RDWR | O_CREAT);
-  if (!file) throw FolderError(fmt::format("{}: the folder cannot be written to: {}", folder.string(), std::strerror(errno)));
+  if (!file)
+    throw FolderError(fmt::format("{}: the folder cannot be written to: {}", folder.string(), std::strerror(errno)));
   if (::flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
-    if (errno != EWOULDBLOCK) throw FolderError(fmt::format("{}: the folder cannot be locked: {}", folder.string(), std::strerror(errno)));
+    if (errno != EWOULDBLOCK)
+      throw FolderError(fmt::format("{}: the folder cannot be locked: {}", folder.string(), std::strerror(errno)));
     throw FolderError(
-        fmt::format("{}: another run{} is writing to this folder; wait for it or name another one with --out", folder.string(), holder(file.get())));
+        fmt::format("{}: another run{} is writing to this folder; wait for it or name another one with --out",
+                    folder.string(), holder(file.get())));
   }
   const int error = ::ftruncate(file.get(), 0) != 0 ? errno : write_all(file.get(), std::to_string(::getpid()));
-  if (error != 0) throw FolderError(fmt::format("{}: the folder cannot be written to: {}", folder.string(), std::strerror(error)));
+  if (error != 0)
+    throw FolderError(fmt::format("{}: the folder cannot be written to: {}", folder.string(), std::strerror(error)));
   return file;
 }
 
 }  // namespace
 
-ResultsFolder::ResultsFolder(const std::string& scene, const std::optional<fs::path>& out) : path_(folder_of(scene, out)) {
+ResultsFolder::ResultsFolder(const std::string& scene, const std::optional<fs::path>& out)
+    : path_(folder_of(scene, out)) {
   create(path_);
   lock_ = lock(path_);
 }
@@ -67,7 +75,9 @@ std::vector<std::string> ResultsFolder::begin() {
     if (fs::is_directory(fs::symlink_status(file, error)))
       throw FolderError(fmt::format("{}: is a folder, where results are to be written", file.string()));
     if (fs::remove(file, error)) removed.emplace_back(name);
-    if (error) throw FolderError(fmt::format("{}: an earlier run's file could not be removed: {}", file.string(), error.message()));
+    if (error)
+      throw FolderError(
+          fmt::format("{}: an earlier run's file could not be removed: {}", file.string(), error.message()));
   }
   return removed;
 }

@@ -16,8 +16,8 @@
 #include <H5FDdevelop.h>
 #endif
 
-#include "io/results/hdf5.hpp"
 #include "io/posix_file.hpp"
+#include "io/results/hdf5.hpp"
 
 namespace nanson::hdf5 {
 namespace {
@@ -26,11 +26,12 @@ using Bytes = std::vector<char>;
 
 struct StagedFile : H5FD_t {
   Descriptor file;
-  haddr_t eoa = 0;                  // end of the addresses that HDF5 has allocated
-  haddr_t size = 0;                 // of the file now
-  haddr_t old_size = 0;             // of the file when it was opened or last committed: below it nothing changes before a commit
+  haddr_t eoa = 0;       // end of the addresses that HDF5 has allocated
+  haddr_t size = 0;      // of the file now
+  haddr_t old_size = 0;  // of the file when it was opened or last committed: below it nothing changes before a commit
   std::map<haddr_t, Bytes> staged;  // what is held back, by address
-  int error = 0;                    // errno of the first failure: from then on everything is staged, for HDF5 to read, and no flush succeeds
+  int error =
+      0;  // errno of the first failure: from then on everything is staged, for HDF5 to read, and no flush succeeds
 };
 
 StagedFile& staged_file(H5FD_t* file) { return *static_cast<StagedFile*>(file); }
@@ -38,7 +39,8 @@ const StagedFile& staged_file(const H5FD_t* file) { return *static_cast<const St
 
 /// Puts the reason on HDF5's error stack, under a name that `take_error` knows, and returns a failure.
 herr_t report(int error) {
-  H5Epush2(H5E_DEFAULT, __FILE__, driver_errors, __LINE__, H5E_ERR_CLS, H5E_FILE, H5E_WRITEERROR, "%s", std::strerror(error));
+  H5Epush2(H5E_DEFAULT, __FILE__, driver_errors, __LINE__, H5E_ERR_CLS, H5E_FILE, H5E_WRITEERROR, "%s",
+           std::strerror(error));
   return -1;
 }
 
@@ -75,14 +77,18 @@ void stage(std::map<haddr_t, Bytes>& staged, haddr_t begin, const char* data, st
   overlaps(staged, begin, end, [&](haddr_t at, Bytes& block, haddr_t first, haddr_t last) {
     std::copy(data + (first - begin), data + (last - begin), block.begin() + std::ptrdiff_t(first - at));
   });
-  std::erase_if(staged, [&](const auto& entry) { return entry.first >= begin && entry.first + entry.second.size() <= end; });
+  std::erase_if(staged,
+                [&](const auto& entry) { return entry.first >= begin && entry.first + entry.second.size() <= end; });
   auto& block = staged[begin];
-  if (block.size() < size) block.assign(data, data + size);  // otherwise a longer block starts here, and has the bytes already
+  if (block.size() < size)
+    block.assign(data, data + size);  // otherwise a longer block starts here, and has the bytes already
 }
 
 /// The place of a block in the order of a commit, lower first; HDF5's blocks begin with a signature, and a tree node has its level in byte 5.
 int rank(haddr_t at, const Bytes& block) {
-  const auto begins = [&](std::string_view signature) { return std::string_view(block.data(), std::min<std::size_t>(block.size(), 4)) == signature; };
+  const auto begins = [&](std::string_view signature) {
+    return std::string_view(block.data(), std::min<std::size_t>(block.size(), 4)) == signature;
+  };
   if (at == 0) return 0;
   if (begins("TREE") && block.size() > 5) return 2 + 255 - static_cast<unsigned char>(block[5]);
   if (begins("SNOD")) return 2 + 256;
@@ -132,7 +138,8 @@ H5FD_t* open(const char* name, unsigned flags, hid_t, haddr_t) {
 /// Never fails, as HDF5 keeps what it could not close and stumbles over it at the program's end: what is to be known for sure has to be flushed first.
 herr_t close(H5FD_t* file) {
   const std::unique_ptr<StagedFile> f(&staged_file(file));
-  const bool cut = f->error != 0 && ::ftruncate(f->file.get(), off_t(f->old_size)) == 0;  // gives the space of a failed frame back
+  const bool cut = f->error != 0
+                   && ::ftruncate(f->file.get(), off_t(f->old_size)) == 0;  // gives the space of a failed frame back
   static_cast<void>(cut);  // where that is impossible, bytes stay behind the end that the superblock tells
   return 0;
 }
@@ -164,7 +171,8 @@ herr_t read(H5FD_t* file, H5FD_mem_t, hid_t, haddr_t at, std::size_t size, void*
   }
   std::fill(bytes + done, bytes + size, 0);  // beyond the end of the file HDF5 expects zeros
   overlaps(f.staged, at, at + size, [&](haddr_t begin, const Bytes& block, haddr_t first, haddr_t last) {
-    std::copy(block.begin() + std::ptrdiff_t(first - begin), block.begin() + std::ptrdiff_t(last - begin), bytes + (first - at));
+    std::copy(block.begin() + std::ptrdiff_t(first - begin), block.begin() + std::ptrdiff_t(last - begin),
+              bytes + (first - at));
   });
   return 0;
 }
@@ -177,7 +185,8 @@ herr_t unlock(H5FD_t* file) { return ::flock(staged_file(file).file.get(), LOCK_
 
 herr_t query(const H5FD_t*, unsigned long* flags) {
   // no accumulation of metadata: it would merge neighbouring blocks, which the order of a commit has to tell apart
-  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
+  *flags = H5FD_FEAT_AGGREGATE_METADATA | H5FD_FEAT_DATA_SIEVE | H5FD_FEAT_AGGREGATE_SMALLDATA
+           | H5FD_FEAT_DEFAULT_VFD_COMPATIBLE;
   return 0;
 }
 
@@ -205,7 +214,8 @@ H5FD_class_t driver_class() {
   c.truncate = [](H5FD_t*, hid_t, hbool_t) { return herr_t{0}; };  // part of the commit
   c.lock = lock;
   c.unlock = unlock;
-  std::fill(std::begin(c.fl_map), std::end(c.fl_map), H5FD_MEM_SUPER);  // one free list for metadata and one for data, like HDF5's own driver
+  std::fill(std::begin(c.fl_map), std::end(c.fl_map),
+            H5FD_MEM_SUPER);  // one free list for metadata and one for data, like HDF5's own driver
   c.fl_map[H5FD_MEM_DRAW] = c.fl_map[H5FD_MEM_GHEAP] = H5FD_MEM_DRAW;
   return c;
 }

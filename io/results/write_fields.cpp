@@ -9,9 +9,9 @@
 #include <stdexcept>
 #include <thread>
 
-#include "io/results/hdf5.hpp"
 #include "io/posix_file.hpp"
 #include "io/replace_file.hpp"
+#include "io/results/hdf5.hpp"
 #include "io/results/staged_file.hpp"
 #include "io/results/xdmf.hpp"
 
@@ -70,12 +70,15 @@ void create_frames(hid_t file) {
   hdf5::create_group(file, "frames", creation);
 }
 
-Dims shape(const FieldName& field, std::size_t rows) { return field.components == 1 ? Dims{rows} : Dims{rows, hsize_t(field.components)}; }
+Dims shape(const FieldName& field, std::size_t rows) {
+  return field.components == 1 ? Dims{rows} : Dims{rows, hsize_t(field.components)};
+}
 
 /// At most 65536 rows, so that a chunk stays small beside a frame. But compressed chunks hold whole frames as far as possible (HDF5 allows 4 GiB): a chunk
 /// that two frames share would change its size with the second, move, and be lost with a run that is killed just then.
 hsize_t rows_in_chunk(const FieldName& field, std::size_t nodes, int compress) {
-  const std::size_t most = compress > 0 ? (std::size_t{1} << 30) / (sizeof(float) * std::size_t(field.components)) : 65536;
+  const std::size_t most = compress > 0 ? (std::size_t{1} << 30) / (sizeof(float) * std::size_t(field.components))
+                                        : 65536;
   return std::min(nodes, most);
 }
 
@@ -83,12 +86,15 @@ void write_mesh(hid_t vtkhdf, const Mesh& mesh) {
   const std::size_t n = mesh.X.size(), m = mesh.tets.size();
   hdf5::set_attributes<int64_t>(vtkhdf, "Version", std::array<int64_t, 2>{2, 0});
   hdf5::set_fixed_string(vtkhdf, "Type", "UnstructuredGrid");
-  const auto count = [&](const char* name, std::size_t value) { hdf5::write<int64_t>(vtkhdf, name, std::array{int64_t(value)}, {1}); };
+  const auto count = [&](const char* name, std::size_t value) {
+    hdf5::write<int64_t>(vtkhdf, name, std::array{int64_t(value)}, {1});
+  };
   count("NumberOfPoints", n);
   count("NumberOfCells", m);
   count("NumberOfConnectivityIds", 4 * m);
 
-  hdf5::write<double>(vtkhdf, "Points", std::span(mesh.X.data()->data(), 3 * n), {n, 3});  // no copies of the mesh: a run's memory is fullest here
+  hdf5::write<double>(vtkhdf, "Points", std::span(mesh.X.data()->data(), 3 * n),
+                      {n, 3});  // no copies of the mesh: a run's memory is fullest here
   hdf5::write<int64_t, int>(vtkhdf, "Connectivity", std::span(mesh.tets.data()->data(), 4 * m), {4 * m});
   std::vector<int64_t> offsets(m + 1);
   for (std::size_t i = 0; i <= m; ++i) offsets[i] = int64_t(4 * i);
@@ -97,7 +103,8 @@ void write_mesh(hid_t vtkhdf, const Mesh& mesh) {
 
   const Handle cell_data = hdf5::create_group(vtkhdf, "CellData");
   hdf5::write<std::int32_t>(cell_data, "region", mesh.tet_region, {m});
-  if (!mesh.region_names.empty()) hdf5::set_strings(hdf5::open_dataset(cell_data, "region"), "names", mesh.region_names);
+  if (!mesh.region_names.empty())
+    hdf5::set_strings(hdf5::open_dataset(cell_data, "region"), "names", mesh.region_names);
 }
 
 /// The datasets of VTKHDF that every step adds one row to, apart from the offsets of the fields: all zero but for the time, as the mesh does not change.
@@ -107,11 +114,13 @@ constexpr hsize_t steps_in_chunk = 256;
 
 void create_series(hid_t vtkhdf, const std::vector<FieldName>& fields, std::size_t nodes, int compress) {
   const Handle data = hdf5::create_group(vtkhdf, "PointData"), steps = hdf5::create_group(vtkhdf, "Steps");
-  const Handle offsets = hdf5::create_group(steps, "PointDataOffsets"), cell_offsets = hdf5::create_group(steps, "CellDataOffsets");
+  const Handle offsets = hdf5::create_group(steps, "PointDataOffsets"),
+               cell_offsets = hdf5::create_group(steps, "CellDataOffsets");
   for (const auto& field : fields) {
     const std::string name(field.name);
     const Dims row = field.components == 1 ? Dims{} : Dims{hsize_t(field.components)};
-    const Handle dataset = hdf5::create_growing<float>(data, name, row, rows_in_chunk(field, nodes, compress), compress);
+    const Handle dataset = hdf5::create_growing<float>(data, name, row, rows_in_chunk(field, nodes, compress),
+                                                       compress);
     hdf5::set_string(dataset, "unit", std::string(field.unit));
     hdf5::create_growing<int64_t>(offsets, name, {}, steps_in_chunk);
   }
@@ -124,7 +133,9 @@ void create_series(hid_t vtkhdf, const std::vector<FieldName>& fields, std::size
 
 void append_step(hid_t file, const std::vector<FieldName>& fields, std::size_t nodes, std::size_t index, double t) {
   const Handle steps = hdf5::open_group(file, "/VTKHDF/Steps");
-  const auto put = [&](const std::string& name, int64_t value) { hdf5::write_rows<int64_t>(steps, name, index, 1, std::array{value}); };
+  const auto put = [&](const std::string& name, int64_t value) {
+    hdf5::write_rows<int64_t>(steps, name, index, 1, std::array{value});
+  };
   for (const auto& field : fields) put("PointDataOffsets/" + std::string(field.name), int64_t(index * nodes));
   for (const auto* name : step_rows) put(name, 0);
   for (const auto* name : step_columns) put(name, 0);
@@ -134,9 +145,13 @@ void append_step(hid_t file, const std::vector<FieldName>& fields, std::size_t n
 
 }  // namespace
 
-FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes,
-                         int compress)
-    : path_(folder / "run.vtkhdf"), fields_(std::move(fields)), nodes_(mesh.X.size()), tets_(mesh.tets.size()), compress_(compress) {
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields,
+                         const Attributes& attributes, int compress)
+    : path_(folder / "run.vtkhdf"),
+      fields_(std::move(fields)),
+      nodes_(mesh.X.size()),
+      tets_(mesh.tets.size()),
+      compress_(compress) {
   hdf5::be_quiet();
   try {
     Handle file = create_file(path_);
@@ -158,8 +173,9 @@ void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get
   try {
     append(t, step, breakdown, get);
   } catch (const hdf5::Error& error) {
-    throw std::runtime_error(fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable", path_.string(),
-                                         frames_, t, error.what()));
+    throw std::runtime_error(
+        fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable",
+                    path_.string(), frames_, t, error.what()));
   }
   xdmf_frames_ += xdmf_frame({path_.filename().string(), nodes_, tets_}, fields_, frames_, t, breakdown);
   ++frames_;
@@ -172,15 +188,18 @@ void FieldWriter::append(double t, long step, bool breakdown, const GetField& ge
   Handle file = open_for_append(path_, patience_);
   const std::string name = fmt::format("/frames/{:06}", frames_);
   {
-    const bool again = hdf5::has_link(file, name);  // left by a failed attempt; kept, since removing a name can make HDF5 move the heap of names
+    const bool again = hdf5::has_link(
+        file, name);  // left by a failed attempt; kept, since removing a name can make HDF5 move the heap of names
     const Handle group = again ? hdf5::open_group(file, name) : hdf5::create_group(file, name);
     hdf5::set_attribute<double>(group, "time", t);
     hdf5::set_attribute<int64_t>(group, "step", step);
-    if (breakdown || hdf5::has_attribute(group, "breakdown")) hdf5::set_attribute<std::int32_t>(group, "breakdown", breakdown);
+    if (breakdown || hdf5::has_attribute(group, "breakdown"))
+      hdf5::set_attribute<std::int32_t>(group, "breakdown", breakdown);
     for (const auto& field : fields_) {
       const auto values = get(field);
       if (values.size() != nodes_ * std::size_t(field.components))
-        throw std::logic_error(fmt::format("field {} came with {} values instead of {} x {}", field.name, values.size(), nodes_, field.components));
+        throw std::logic_error(fmt::format("field {} came with {} values instead of {} x {}", field.name, values.size(),
+                                           nodes_, field.components));
       const std::string source = "/VTKHDF/PointData/" + std::string(field.name);
       hdf5::write_rows<float>(file, source, frames_ * nodes_, nodes_, values);
       if (!hdf5::has_link(group, std::string(field.name)))

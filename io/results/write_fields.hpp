@@ -27,7 +27,8 @@ class FieldWriter {
   using GetField = std::function<std::span<const float>(const FieldName&)>;
 
   /// Creates run.vtkhdf (one that exists is an error) and run.xdmf in a folder that exists. `attributes` go to "/"; `compress` is a gzip level, 0 for none.
-  FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields, const Attributes& attributes, int compress);
+  FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields,
+              const Attributes& attributes, int compress);
 
   /// Appends a frame; the file is closed again afterwards. Throws std::runtime_error with the reason when it cannot be written: the frames before stay
   /// readable, and the frame can be tried again.

@@ -14,7 +14,8 @@
 namespace nanson {
 HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<HistoryColumn>& columns)
     : path_(std::move(path)), columns_(columns.size()), file_(path_, O_WRONLY | O_CREAT | O_TRUNC) {
-  if (!file_) throw std::runtime_error(fmt::format("{}: could not be created: {}", path_.string(), std::strerror(errno)));
+  if (!file_)
+    throw std::runtime_error(fmt::format("{}: could not be created: {}", path_.string(), std::strerror(errno)));
   for (const auto& column : columns) {
     if (!line_.empty()) line_ += ',';
     line_ += csv_text(fmt::format("{} [{}]", column.name, column.unit));
@@ -23,7 +24,8 @@ HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<Histo
 }
 
 void HistoryWriter::row(std::span<const double> values) {
-  if (values.size() != columns_) throw std::logic_error(fmt::format("a history row of {} values for {} columns", values.size(), columns_));
+  if (values.size() != columns_)
+    throw std::logic_error(fmt::format("a history row of {} values for {} columns", values.size(), columns_));
   line_.clear();
   for (const double value : values) {
     if (!line_.empty()) line_ += ',';
@@ -43,8 +45,8 @@ void HistoryWriter::append(const std::string& line) {
     return;
   }
   const bool cut = ::ftruncate(file_.get(), off_t(size_)) == 0 && ::lseek(file_.get(), off_t(size_), SEEK_SET) >= 0;
-  throw std::runtime_error(
-      fmt::format("{}: a row could not be written: {}{}", path_.string(), std::strerror(error), cut ? "" : "; the last row is cut"));
+  throw std::runtime_error(fmt::format("{}: a row could not be written: {}{}", path_.string(), std::strerror(error),
+                                       cut ? "" : "; the last row is cut"));
 }
 
 }  // namespace nanson

@@ -13,7 +13,9 @@ namespace nanson {
 namespace {
 
 /// TOML has no null: NaN stands for it in the table, and `nulls` makes it one in the text.
-double number(std::optional<double> value) { return value && std::isfinite(*value) ? *value : std::numeric_limits<double>::quiet_NaN(); }
+double number(std::optional<double> value) {
+  return value && std::isfinite(*value) ? *value : std::numeric_limits<double>::quiet_NaN();
+}
 
 /// Replaces NaN outside strings, where nothing but a number can be spelt so.
 std::string nulls(const std::string& json) {
@@ -45,9 +47,10 @@ toml::array list(const std::vector<double>& values) {
 }
 
 toml::table energy_table(const EnergySummary& e) {
-  return toml::table{{"initial", number(e.initial)}, {"kinetic", number(e.kinetic)}, {"strain", number(e.strain)},
-                     {"external_work", number(e.external_work)}, {"dissipated", number(e.dissipated)},
-                     {"angular_momentum_work", number(e.angular_momentum_work)}, {"closure", number(e.closure)}, {"lost_at_start", number(e.lost_at_start)}};
+  return toml::table{{"initial", number(e.initial)},       {"kinetic", number(e.kinetic)},
+                     {"strain", number(e.strain)},         {"external_work", number(e.external_work)},
+                     {"dissipated", number(e.dissipated)}, {"angular_momentum_work", number(e.angular_momentum_work)},
+                     {"closure", number(e.closure)},       {"lost_at_start", number(e.lost_at_start)}};
 }
 
 toml::table probes_table(const std::map<std::string, std::map<std::string, std::vector<double>>>& probes) {
@@ -70,23 +73,33 @@ toml::table times_table(const std::vector<SweepTime>& sweeps) {
 }
 
 toml::table provenance_table(const Provenance& from) {
-  return toml::table{{"version", from.version}, {"commit", from.commit}, {"compiler", from.compiler}, {"flags", from.flags}, {"cpu", from.cpu},
-                     {"host", from.host}};
+  return toml::table{{"version", from.version}, {"commit", from.commit}, {"compiler", from.compiler},
+                     {"flags", from.flags},     {"cpu", from.cpu},       {"host", from.host}};
 }
 
 /// Empty without a projection.
 toml::table projection_table(const std::optional<ProjectionSummary>& p) {
   if (!p) return {};
-  return toml::table{{"solver", p->solver}, {"stabilisation", number(p->stabilisation)}, {"drift_control", number(p->drift_control)}, {"tolerance", number(p->tolerance)},
-                     {"iterations", p->iterations}, {"iterations_per_stage", number(p->iterations_per_stage)}, {"solves_per_stage", number(p->solves_per_stage)},
-                     {"residual", number(p->residual)}, {"closed", p->closed}};
+  return toml::table{{"solver", p->solver},
+                     {"stabilisation", number(p->stabilisation)},
+                     {"drift_control", number(p->drift_control)},
+                     {"tolerance", number(p->tolerance)},
+                     {"iterations", p->iterations},
+                     {"iterations_per_stage", number(p->iterations_per_stage)},
+                     {"solves_per_stage", number(p->solves_per_stage)},
+                     {"residual", number(p->residual)},
+                     {"closed", p->closed}};
 }
 
 /// Empty where the model does not count.
 toml::table throughput_table(const std::optional<Throughput>& t) {
   if (!t) return {};
-  return toml::table{{"bytes_per_node_step", number(t->bytes_per_node_step)}, {"flops_per_node_step", number(t->flops_per_node_step)}, {"GB_s", number(t->GB_s)},
-                     {"GF_s", number(t->GF_s)}, {"update_GB_s", number(t->update_GB_s)}, {"bandwidth_share", number(t->bandwidth_share)}};
+  return toml::table{{"bytes_per_node_step", number(t->bytes_per_node_step)},
+                     {"flops_per_node_step", number(t->flops_per_node_step)},
+                     {"GB_s", number(t->GB_s)},
+                     {"GF_s", number(t->GF_s)},
+                     {"update_GB_s", number(t->update_GB_s)},
+                     {"bandwidth_share", number(t->bandwidth_share)}};
 }
 
 std::optional<double> peak_per_node(const Summary& s) {
@@ -103,19 +116,52 @@ void collect_numbers(const toml::table& table, const std::string& before, std::v
 }
 
 toml::table summary_table(const Summary& s, const Provenance& from) {
-  toml::table table{
-      {"status", s.status}, {"reason", s.reason}, {"cause", s.cause}, {"scene", s.scene}, {"formulation", s.formulation}, {"material", s.material},
-      {"description", s.description}, {"stabilisation", s.stabilisation}, {"reconstruction", s.reconstruction}, {"flux_correction", s.flux_correction},
-      {"boundary_flux", s.boundary_flux}, {"upwind_metric", s.upwind_metric}, {"pressure_jump", s.pressure_jump}, {"parting", number(s.parting)}, {"integrator", s.integrator},
-      {"step", s.step}, {"split", s.split}, {"nodes", s.nodes}, {"tets", s.tets}, {"edges", s.edges}, {"steps", s.steps}, {"t_end", number(s.t_end)},
-      {"dt_min", number(s.dt_min)}, {"dt_max", number(s.dt_max)}, {"threads", s.threads}, {"wall_s", number(s.wall_s)}, {"cpu_s", number(s.cpu_s)},
-      {"setup_s", number(s.setup_s)}, {"ns_per_node_step", number(s.ns_per_node_step)}, {"bytes_per_node", number(s.bytes_per_node)},
-      {"peak_bytes", number(s.peak_bytes)}, {"peak_bytes_per_node", number(peak_per_node(s))},
-      {"fields_left_out", list(s.fields_left_out)}, {"state_hash", s.state_hash}, {"energy", energy_table(s.energy)}, {"mass", number(s.mass)},
-      {"volume", number(s.volume)}, {"keep_angular_momentum", s.keep_angular_momentum},
-      {"angular_momentum_drift", number(s.angular_momentum_drift)},
-      {"linear_momentum_drift", number(s.linear_momentum_drift)}, {"min_detF", number(s.min_detF)}, {"max_detF", number(s.max_detF)},
-      {"probes", probes_table(s.probes)}, {"setup", times_table(s.setup)}, {"sweeps", times_table(s.sweeps)}, {"provenance", provenance_table(from)}};
+  toml::table table{{"status", s.status},
+                    {"reason", s.reason},
+                    {"cause", s.cause},
+                    {"scene", s.scene},
+                    {"formulation", s.formulation},
+                    {"material", s.material},
+                    {"description", s.description},
+                    {"stabilisation", s.stabilisation},
+                    {"reconstruction", s.reconstruction},
+                    {"flux_correction", s.flux_correction},
+                    {"boundary_flux", s.boundary_flux},
+                    {"upwind_metric", s.upwind_metric},
+                    {"pressure_jump", s.pressure_jump},
+                    {"parting", number(s.parting)},
+                    {"integrator", s.integrator},
+                    {"step", s.step},
+                    {"split", s.split},
+                    {"nodes", s.nodes},
+                    {"tets", s.tets},
+                    {"edges", s.edges},
+                    {"steps", s.steps},
+                    {"t_end", number(s.t_end)},
+                    {"dt_min", number(s.dt_min)},
+                    {"dt_max", number(s.dt_max)},
+                    {"threads", s.threads},
+                    {"wall_s", number(s.wall_s)},
+                    {"cpu_s", number(s.cpu_s)},
+                    {"setup_s", number(s.setup_s)},
+                    {"ns_per_node_step", number(s.ns_per_node_step)},
+                    {"bytes_per_node", number(s.bytes_per_node)},
+                    {"peak_bytes", number(s.peak_bytes)},
+                    {"peak_bytes_per_node", number(peak_per_node(s))},
+                    {"fields_left_out", list(s.fields_left_out)},
+                    {"state_hash", s.state_hash},
+                    {"energy", energy_table(s.energy)},
+                    {"mass", number(s.mass)},
+                    {"volume", number(s.volume)},
+                    {"keep_angular_momentum", s.keep_angular_momentum},
+                    {"angular_momentum_drift", number(s.angular_momentum_drift)},
+                    {"linear_momentum_drift", number(s.linear_momentum_drift)},
+                    {"min_detF", number(s.min_detF)},
+                    {"max_detF", number(s.max_detF)},
+                    {"probes", probes_table(s.probes)},
+                    {"setup", times_table(s.setup)},
+                    {"sweeps", times_table(s.sweeps)},
+                    {"provenance", provenance_table(from)}};
   table.insert("checkerboard", number(s.checkerboard));
   table.insert("projection", projection_table(s.projection));
   table.insert("throughput", throughput_table(s.throughput));
@@ -137,7 +183,8 @@ std::string summary_json(const Summary& summary, const Provenance& from) {
 
 std::vector<std::string> summary_number_keys() {
   Summary all;
-  all.projection.emplace(), all.throughput.emplace();
+  all.projection.emplace();
+  all.throughput.emplace();
   for (const char* name : error_names) all.errors[name] = 0;
   std::vector<std::string> keys;
   collect_numbers(summary_table(all, {}), "", keys);

@@ -17,7 +17,8 @@ struct XdmfMesh {
 };
 
 /// One time of the series. The state after a breakdown carries an Information element `breakdown` = 1.
-std::string xdmf_frame(const XdmfMesh& mesh, std::span<const FieldName> fields, std::size_t index, double t, bool breakdown);
+std::string xdmf_frame(const XdmfMesh& mesh, std::span<const FieldName> fields, std::size_t index, double t,
+                       bool breakdown);
 
 /// The whole file around the frames.
 std::string xdmf_file(std::string_view frames);

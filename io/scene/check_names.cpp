@@ -31,7 +31,8 @@ bool inside(const Box& box, const Vec3& at) {
   double extent = 0;
   for (std::size_t i = 0; i < 3; ++i) extent = std::max(extent, box.high[i] - box.low[i]);
   const double slack = 1e-9 * extent;
-  for (std::size_t i = 0; i < 3; ++i) if (!(at[i] >= box.low[i] - slack && at[i] <= box.high[i] + slack)) return false;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (!(at[i] >= box.low[i] - slack && at[i] <= box.high[i] + slack)) return false;
   return true;
 }
 
@@ -40,19 +41,22 @@ std::string shown(const Vec3& v) { return fmt::format("[{}, {}, {}]", v[0], v[1]
 /// Regions that the mesh does not have, and regions of the mesh that no [[material]] is for.
 void check_regions(const Scene& scene, const Mesh& mesh, std::vector<std::string>& errors) {
   const auto materials = materials_of(scene);
-  if (materials[0].regions.empty()) return;        // one [material]
+  if (materials[0].regions.empty()) return;  // one [material]
   std::vector<std::string> named;
   for (std::size_t i = 0; i < materials.size(); ++i) {
     for (const Named& region : materials[i].regions) {
       named.push_back(region.name);
-      if (std::find(mesh.region_names.begin(), mesh.region_names.end(), region.name) != mesh.region_names.end()) continue;
-      errors.push_back(fmt::format("{}: material.{}.region = \"{}\": {}", region.where, i, region.name, unknown_word("region", region.name, mesh.region_names)));
+      if (std::find(mesh.region_names.begin(), mesh.region_names.end(), region.name) != mesh.region_names.end())
+        continue;
+      errors.push_back(fmt::format("{}: material.{}.region = \"{}\": {}", region.where, i, region.name,
+                                   unknown_word("region", region.name, mesh.region_names)));
     }
   }
   for (std::size_t r = 0; r < mesh.region_names.size(); ++r) {
     const long tets = std::count(mesh.tet_region.begin(), mesh.tet_region.end(), static_cast<int>(r));
     if (tets == 0 || std::find(named.begin(), named.end(), mesh.region_names[r]) != named.end()) continue;
-    errors.push_back(fmt::format("{}: material: no [[material]] is for region \"{}\" of the mesh, which has {} tets", materials[0].regions[0].where, mesh.region_names[r], tets));
+    errors.push_back(fmt::format("{}: material: no [[material]] is for region \"{}\" of the mesh, which has {} tets",
+                                 materials[0].regions[0].where, mesh.region_names[r], tets));
   }
 }
 
@@ -64,8 +68,11 @@ void check_plastic_interfaces(const Scene& scene, const Mesh& mesh, std::vector<
       const MaterialSpec& own = scene.materials[static_cast<std::size_t>(m)];
       if (own.law != Law::hencky_j2) continue;
       if (plastic >= 0)
-        errors.push_back(fmt::format("{}: material.{}.region = \"{}\": touches region \"{}\", hencky_j2 too: a node carries the plastic state of one material", own.regions[0].where, m,
-                                     own.regions[0].name, scene.materials[static_cast<std::size_t>(plastic)].regions[0].name));
+        errors.push_back(
+            fmt::format("{}: material.{}.region = \"{}\": touches region \"{}\", hencky_j2 too: a node carries the "
+                        "plastic state of one material",
+                        own.regions[0].where, m, own.regions[0].name,
+                        scene.materials[static_cast<std::size_t>(plastic)].regions[0].name));
       plastic = m;
     }
   }
@@ -78,7 +85,8 @@ std::vector<std::string> check_names(const Scene& scene, const Mesh& mesh) {
   for (std::size_t i = 0; i < scene.boundary.size(); ++i) {
     for (const Named& face : scene.boundary[i].faces) {
       if (std::find(mesh.patch_names.begin(), mesh.patch_names.end(), face.name) != mesh.patch_names.end()) continue;
-      errors.push_back(fmt::format("{}: boundary.{}.face = \"{}\": {}", face.where, i, face.name, unknown_word("face", face.name, mesh.patch_names)));
+      errors.push_back(fmt::format("{}: boundary.{}.face = \"{}\": {}", face.where, i, face.name,
+                                   unknown_word("face", face.name, mesh.patch_names)));
     }
   }
   check_regions(scene, mesh, errors);

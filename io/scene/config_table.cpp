@@ -20,7 +20,8 @@ bool within(Diagnostics& d, const toml::node& node, const std::string& path, dou
 }
 
 template <class T>
-bool read_three(Diagnostics& d, const toml::node& node, const std::string& path, std::array<T, 3>& value, const Range& range, std::string_view what) {
+bool read_three(Diagnostics& d, const toml::node& node, const std::string& path, std::array<T, 3>& value,
+                const Range& range, std::string_view what) {
   const auto* list = node.as_array();
   if (!list || list->size() != 3) {
     report(d, node, path, fmt::format("must be three {}", what));
@@ -28,13 +29,16 @@ bool read_three(Diagnostics& d, const toml::node& node, const std::string& path,
   }
   std::array<T, 3> three{};
   bool ok = true;
-  for (std::size_t i = 0; i < 3; ++i) ok = read_value(d, (*list)[i], fmt::format("{}.{}", path, i), three[i], range) && ok;
+  for (std::size_t i = 0; i < 3; ++i)
+    ok = read_value(d, (*list)[i], fmt::format("{}.{}", path, i), three[i], range) && ok;
   if (ok) value = three;
   else d.wrong.insert(path);
   return ok;
 }
 
-bool contains(std::span<const std::string_view> keys, std::string_view key) { return std::find(keys.begin(), keys.end(), key) != keys.end(); }
+bool contains(std::span<const std::string_view> keys, std::string_view key) {
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
 
 }  // namespace
 
@@ -70,11 +74,13 @@ bool read_value(Diagnostics& d, const toml::node& node, const std::string& path,
   return true;
 }
 
-bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<double, 3>& value, const Range& range) {
+bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<double, 3>& value,
+                const Range& range) {
   return read_three(d, node, path, value, range, "numbers");
 }
 
-bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<int, 3>& value, const Range& range) {
+bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<int, 3>& value,
+                const Range& range) {
   return read_three(d, node, path, value, range, "whole numbers");
 }
 
@@ -115,7 +121,8 @@ bool read_value(Diagnostics& d, const toml::node& node, const std::string& path,
   return ok;
 }
 
-int read_word(Diagnostics& d, const toml::node& node, const std::string& path, std::span<const std::string_view> allowed) {
+int read_word(Diagnostics& d, const toml::node& node, const std::string& path,
+              std::span<const std::string_view> allowed) {
   const auto* s = node.as_string();
   const auto hit = s ? std::find(allowed.begin(), allowed.end(), s->get()) : allowed.end();
   if (hit != allowed.end()) return static_cast<int>(hit - allowed.begin());
@@ -131,7 +138,9 @@ const toml::node* Table::find(std::string_view key) {
   return entries_.get(key);
 }
 
-std::string Table::path(std::string_view key) const { return path_.empty() ? shown_key(key) : path_ + "." + shown_key(key); }
+std::string Table::path(std::string_view key) const {
+  return path_.empty() ? shown_key(key) : path_ + "." + shown_key(key);
+}
 
 Place Table::place(std::string_view key) const {
   const toml::node* node = entries_.get(key);
@@ -180,12 +189,15 @@ void Table::finish() {
   for (auto&& [key, node] : entries_) {
     const std::string name(key.str());
     const auto is_name = [&](const std::string& k) { return k == name; };
-    if (std::any_of(known_.begin(), known_.end(), is_name) || std::any_of(passed_.begin(), passed_.end(), is_name)) continue;
+    if (std::any_of(known_.begin(), known_.end(), is_name) || std::any_of(passed_.begin(), passed_.end(), is_name))
+      continue;
     report(diagnostics_, place_of(key.source()), path(name), node, unknown_word("key", name, known_));
     meant.push_back(nearest_word(name, known_));
   }
   for (const Missing& m : missing_) {
-    const auto misspelt = [&](const std::string& key) { return std::find(meant.begin(), meant.end(), key) != meant.end(); };
+    const auto misspelt = [&](const std::string& key) {
+      return std::find(meant.begin(), meant.end(), key) != meant.end();
+    };
     if (!std::any_of(m.keys.begin(), m.keys.end(), misspelt)) report(diagnostics_, place_of(entries_.source()), m.text);
   }
 }

@@ -24,20 +24,24 @@ struct Range {
 };
 
 /// What stands at `node`, read into `value`; false when it is wrong, which is then reported and `value` left alone.
-bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, double& value, const Range& range = {});
+bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, double& value,
+                const Range& range = {});
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, long& value, const Range& range = {});
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, int& value, const Range& range = {});
-bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<double, 3>& value, const Range& range = {});
-bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<int, 3>& value, const Range& range = {});
+bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<double, 3>& value,
+                const Range& range = {});
+bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::array<int, 3>& value,
+                const Range& range = {});
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, bool& value);
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::string& value);
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, std::vector<Word>& value);
 
 /// The position of a choice in its list of words, -1 when it is none of them.
-int read_word(Diagnostics& d, const toml::node& node, const std::string& path, std::span<const std::string_view> allowed);
+int read_word(Diagnostics& d, const toml::node& node, const std::string& path,
+              std::span<const std::string_view> allowed);
 
 template <class Choice>
-  requires std::is_enum_v<Choice>
+requires std::is_enum_v<Choice>
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, Choice& value) {
   const auto allowed = words(Choice{});
   const int i = read_word(d, node, path, allowed);
@@ -51,10 +55,10 @@ class Table {
   Table(const toml::table& entries, std::string path, Diagnostics& diagnostics);
 
   bool has(std::string_view key) const { return entries_.contains(key); }
-  const toml::node* find(std::string_view key);    // nullptr when it is not there
+  const toml::node* find(std::string_view key);                                      // nullptr when it is not there
   const toml::node* require_node(std::string_view key, std::string_view hint = {});  // which is then an error
-  std::string path(std::string_view key) const;    // "material.density"
-  Place place(std::string_view key) const;         // of the value; of the table when the key is not there
+  std::string path(std::string_view key) const;                                      // "material.density"
+  Place place(std::string_view key) const;  // of the value; of the table when the key is not there
   Diagnostics& diagnostics() { return diagnostics_; }
 
   /// True when nothing was reported at `key` so far, so that its value, or its default, may be reasoned with.
@@ -75,11 +79,14 @@ class Table {
   /// The same for a key without a default; false also when it is not there.
   template <class T>
   bool require(std::string_view key, T& value) {
-    if constexpr (std::is_enum_v<T>) return require_node(key, ", allowed: " + join_words(words(T{}))) && read(key, value);
+    if constexpr (std::is_enum_v<T>)
+      return require_node(key, ", allowed: " + join_words(words(T{}))) && read(key, value);
     else return require_node(key) && read(key, value);
   }
   template <class T>
-  bool require(std::string_view key, T& value, const Range& range) { return require_node(key) && read(key, value, range); }
+  bool require(std::string_view key, T& value, const Range& range) {
+    return require_node(key) && read(key, value, range);
+  }
 
   /// Calls reader(Table&) on a sub-table and then reports what it did not read.
   template <class Reader>
@@ -145,8 +152,8 @@ class Table {
   const toml::table& entries_;
   std::string path_;
   Diagnostics& diagnostics_;
-  std::vector<std::string> known_;                 // asked for, in the order of asking
-  std::vector<std::string> passed_;                // not to be read here, and already dealt with
+  std::vector<std::string> known_;   // asked for, in the order of asking
+  std::vector<std::string> passed_;  // not to be read here, and already dealt with
   std::vector<Missing> missing_;
 };
 

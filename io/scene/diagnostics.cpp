@@ -44,7 +44,8 @@ Place place_of(const toml::source_region& source) {
 }
 
 std::string where(const Diagnostics& d, const Place& place) {
-  return place.setting ? fmt::format("--set #{}", place.setting) : fmt::format("{}:{}:{}", d.file, place.line, place.column);
+  return place.setting ? fmt::format("--set #{}", place.setting)
+                       : fmt::format("{}:{}:{}", d.file, place.line, place.column);
 }
 
 std::string shown(const toml::node& node) {
@@ -62,7 +63,8 @@ std::string shown_key(std::string_view key) {
 
 void report(Diagnostics& d, const Place& place, std::string text) { d.found.emplace_back(place, std::move(text)); }
 
-void report(Diagnostics& d, const Place& place, const std::string& path, const toml::node& found, std::string_view why) {
+void report(Diagnostics& d, const Place& place, const std::string& path, const toml::node& found,
+            std::string_view why) {
   d.wrong.insert(path);
   const bool tables = found.is_table() || found.is_array_of_tables();
   report(d, place, tables ? fmt::format("{}: {}", path, why) : fmt::format("{} = {}: {}", path, shown(found), why));

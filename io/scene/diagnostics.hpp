@@ -13,7 +13,7 @@ namespace nanson {
 
 /// Line and column of the file, or within the n-th --set (settings are listed after the file).
 struct Place {
-  long setting = 0;                                // 0: the file
+  long setting = 0;  // 0: the file
   long line = 1;
   long column = 1;
   auto operator<=>(const Place&) const = default;
@@ -22,7 +22,7 @@ struct Place {
 struct Diagnostics {
   std::string file;
   std::vector<std::pair<Place, std::string>> found;
-  std::set<std::string> wrong;                     // keys that were reported, so that nothing is concluded from their values
+  std::set<std::string> wrong;  // keys that were reported, so that nothing is concluded from their values
 };
 
 /// A word of the input that is checked later: its place and its key go along.

@@ -7,7 +7,8 @@
 
 namespace nanson {
 
-std::optional<Loaded> load(const std::filesystem::path& file, const std::vector<std::string>& settings, std::vector<std::string>& errors) {
+std::optional<Loaded> load(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                           std::vector<std::string>& errors) {
   SceneResult read = read_scene(file, settings);
   errors = std::move(read.errors);
   Loaded out{std::move(read.scene), {}, 0};

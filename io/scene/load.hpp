@@ -13,10 +13,11 @@ namespace nanson {
 struct Loaded {
   Scene scene;
   Mesh mesh;
-  double mesh_s = 0;                               // [s] to read or make it and to check it
+  double mesh_s = 0;  // [s] to read or make it and to check it
 };
 
 /// Nothing when something is wrong: all of it then stands in `errors`.
-std::optional<Loaded> load(const std::filesystem::path& file, const std::vector<std::string>& settings, std::vector<std::string>& errors);
+std::optional<Loaded> load(const std::filesystem::path& file, const std::vector<std::string>& settings,
+                           std::vector<std::string>& errors);
 
 }  // namespace nanson

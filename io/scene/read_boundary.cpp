@@ -57,7 +57,8 @@ void read_entry(Table& t, Entry& e) {
   BoundarySpec& b = e.spec;
   read_names(t, "face", e.faces);
   for (const Word& f : e.faces) b.faces.push_back({f.text, where(t.diagnostics(), f.place)});
-  const bool known = read_kind<BoundaryKind>(t, "kind", b.kind, true, {{traction, {"t"}}, {pressure, {"p"}}, {velocity, {"v"}}});
+  const bool known = read_kind<BoundaryKind>(t, "kind", b.kind, true,
+                                             {{traction, {"t"}}, {pressure, {"p"}}, {velocity, {"v"}}});
   if (known && b.kind == traction) t.require("t", b.traction);
   if (known && b.kind == pressure) t.require("p", b.pressure);
   if (known && b.kind == velocity) read_velocity(t, b);
@@ -92,10 +93,13 @@ void check_shared_faces(const std::vector<Entry>& entries, Diagnostics& d) {
     for (const Word& face : e.faces) {
       for (const Use& before : uses) {
         if (before.face->text != face.text) continue;
-        const std::string_view why = before.spec == &e.spec ? "the list names it twice" : conflict(*before.spec, e.spec);
+        const std::string_view why = before.spec == &e.spec ? "the list names it twice"
+                                                            : conflict(*before.spec, e.spec);
         if (why.empty()) continue;
         const std::string place = where(d, before.face->place);
-        report(d, face, fmt::format("kind {} cannot join kind {} of {}: {}", word(e.spec.kind), word(before.spec->kind), place, why));
+        report(d, face,
+               fmt::format("kind {} cannot join kind {} of {}: {}", word(e.spec.kind), word(before.spec->kind), place,
+                           why));
         break;
       }
       uses.push_back({&face, &e.spec});

@@ -11,8 +11,11 @@ namespace {
 /// Point i of the curve: "must ..." when it is wrong, empty when it is right.
 std::string point_problem(const std::vector<std::pair<double, double>>& before, double eps_p, double tau_y) {
   if (before.empty()) return eps_p == 0 && tau_y > 0 ? "" : "must start the curve: eps_p = 0, tau_y above 0";
-  if (!(eps_p > before.back().first)) return fmt::format("must come after the point at eps_p = {}", before.back().first);
-  return tau_y >= before.back().second ? "" : fmt::format("softens: tau_y must be at least {}, that of the point before", before.back().second);
+  if (!(eps_p > before.back().first))
+    return fmt::format("must come after the point at eps_p = {}", before.back().first);
+  return tau_y >= before.back().second
+             ? ""
+             : fmt::format("softens: tau_y must be at least {}, that of the point before", before.back().second);
 }
 
 /// [[eps_p, tau_y], ...].
@@ -40,24 +43,30 @@ void read_hardening(Table& t, std::vector<std::pair<double, double>>& points) {
 /// yield_stress with hardening_modulus, or a curve that says both.
 void read_plasticity(Table& t, MaterialSpec& m) {
   const bool modulus = t.has("hardening_modulus"), curve = t.has("hardening");
-  if (!modulus && !curve) t.missing({"hardening_modulus", "hardening"}, t.path("hardening_modulus") + ": exactly one of hardening_modulus | hardening is needed");
+  if (!modulus && !curve)
+    t.missing({"hardening_modulus", "hardening"},
+              t.path("hardening_modulus") + ": exactly one of hardening_modulus | hardening is needed");
   if (modulus && curve) t.fail("hardening", "stands beside hardening_modulus, exactly one of them is allowed");
   t.read("hardening_modulus", m.hardening_modulus, {.from = 0});
   if (curve && !modulus) read_hardening(t, m.hardening);
   if (!curve) {
     t.require("yield_stress", m.yield_stress, {.above = 0});
-  } else if (t.read("yield_stress", m.yield_stress, {.above = 0}) && t.has("yield_stress") && !m.hardening.empty() && m.yield_stress != m.hardening[0].second) {
+  } else if (t.read("yield_stress", m.yield_stress, {.above = 0}) && t.has("yield_stress") && !m.hardening.empty()
+             && m.yield_stress != m.hardening[0].second) {
     t.fail("yield_stress", fmt::format("is not the curve's first tau_y, {}: leave it out", m.hardening[0].second));
   }
 }
 
 void read_material(Table& t, MaterialSpec& m) {
-  const bool law = read_kind<Law>(t, "law", m.law, true, {{Law::mooney_rivlin, {"xi"}}, {Law::hencky_j2, {"yield_stress", "hardening_modulus", "hardening"}}});
+  const bool law = read_kind<Law>(
+      t, "law", m.law, true,
+      {{Law::mooney_rivlin, {"xi"}}, {Law::hencky_j2, {"yield_stress", "hardening_modulus", "hardening"}}});
   t.require("density", m.density, {.above = 0});
   const bool young = t.require("youngs_modulus", m.youngs_modulus, {.above = 0});
   const bool poisson = t.require("poissons_ratio", m.poissons_ratio, {.above = -1, .to = 0.5});
   if (law && m.law == Law::mooney_rivlin && t.require("xi", m.xi, {.from = 0}) && young && poisson) {
-    const double limit = m.youngs_modulus / (2 * (1 + m.poissons_ratio)) / (3 * std::sqrt(3.0));  // 2 zeta = mu - 3 sqrt(3) xi stays positive
+    const double limit = m.youngs_modulus / (2 * (1 + m.poissons_ratio))
+                         / (3 * std::sqrt(3.0));  // 2 zeta = mu - 3 sqrt(3) xi stays positive
     if (!(m.xi < limit)) t.fail("xi", fmt::format("must be below mu / (3 sqrt(3)) = {:.6g}", limit));
   }
   if (law && m.law == Law::hencky_j2) read_plasticity(t, m);
@@ -101,7 +110,8 @@ void read_materials(Table& root, Scene& s) {
     s.materials.push_back(std::move(m));
   });
   check_shared_regions(regions, root.diagnostics());
-  if (s.materials.empty()) return root.fail("material", "must be a table [material], or a list of at least one [[material]]");
+  if (s.materials.empty())
+    return root.fail("material", "must be a table [material], or a list of at least one [[material]]");
   s.material = s.materials[0];
   if (s.materials.size() == 1) s.materials.clear();
 }

@@ -17,8 +17,10 @@ void read_fields(Table& t, const std::vector<Word>& words, std::vector<std::stri
   const std::vector<std::string_view> known = known_fields();
   fields.clear();
   for (const Word& w : words) {
-    if (std::find(known.begin(), known.end(), w.text) == known.end()) report(t.diagnostics(), w, unknown_word("field", w.text, known));
-    else if (std::find(fields.begin(), fields.end(), w.text) != fields.end()) report(t.diagnostics(), w, "is named twice");
+    if (std::find(known.begin(), known.end(), w.text) == known.end())
+      report(t.diagnostics(), w, unknown_word("field", w.text, known));
+    else if (std::find(fields.begin(), fields.end(), w.text) != fields.end())
+      report(t.diagnostics(), w, "is named twice");
     else fields.push_back(w.text);
   }
 }

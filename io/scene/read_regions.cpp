@@ -7,7 +7,7 @@ namespace nanson {
 
 namespace {
 
-constexpr double off_plane = 1e-6;                 // share of a cell by which a plane may miss the cells' own
+constexpr double off_plane = 1e-6;  // share of a cell by which a plane may miss the cells' own
 
 bool read_planes(Table& t, std::vector<double>& at) {
   const toml::node* node = t.require_node("at");
@@ -29,10 +29,15 @@ bool read_planes(Table& t, std::vector<double>& at) {
 /// Why plane i cannot part the cells; empty when it can.
 std::string plane_problem(const MeshSpec& m, std::size_t i) {
   const std::size_t k = static_cast<std::size_t>(m.regions.axis);
-  const double plane = m.regions.at[i], cell = m.size[k] / m.cells[k], cells = (plane - m.origin[k]) / cell, whole = std::round(cells);
+  const double plane = m.regions.at[i], cell = m.size[k] / m.cells[k], cells = (plane - m.origin[k]) / cell,
+               whole = std::round(cells);
   if (i > 0 && !(plane > m.regions.at[i - 1])) return "must lie above the plane before it";
-  if (!(whole >= 1 && whole <= m.cells[k] - 1)) return fmt::format("must lie inside the box, between {:g} and {:g}, with a row of cells on each side", m.origin[k], m.origin[k] + m.size[k]);
-  if (std::abs(cells - whole) > off_plane) return fmt::format("cuts through cells: the nearest plane between two of the {} is at {:g}", m.cells[k], m.origin[k] + whole * cell);
+  if (!(whole >= 1 && whole <= m.cells[k] - 1))
+    return fmt::format("must lie inside the box, between {:g} and {:g}, with a row of cells on each side", m.origin[k],
+                       m.origin[k] + m.size[k]);
+  if (std::abs(cells - whole) > off_plane)
+    return fmt::format("cuts through cells: the nearest plane between two of the {} is at {:g}", m.cells[k],
+                       m.origin[k] + whole * cell);
   return "";
 }
 
@@ -50,13 +55,15 @@ void read_regions(Table& t, MeshSpec& m) {
         for (std::size_t k = 0; k < i; ++k)
           if (names[k].text == names[i].text) report(r.diagnostics(), names[i], "is named twice");
       }
-      if (planes && names.size() != regions.at.size() + 1) r.fail("names", fmt::format("must be {} names, one more than planes in \"at\"", regions.at.size() + 1));
+      if (planes && names.size() != regions.at.size() + 1)
+        r.fail("names", fmt::format("must be {} names, one more than planes in \"at\"", regions.at.size() + 1));
     }
     if (!box || !axis || !planes) return;
     m.regions = regions;
     const auto* list = r.find("at")->as_array();
     for (std::size_t i = 0; i < regions.at.size(); ++i)
-      if (const std::string why = plane_problem(m, i); !why.empty()) report(r.diagnostics(), (*list)[i], fmt::format("{}.{}", r.path("at"), i), why);
+      if (const std::string why = plane_problem(m, i); !why.empty())
+        report(r.diagnostics(), (*list)[i], fmt::format("{}.{}", r.path("at"), i), why);
   });
 }
 

@@ -26,7 +26,8 @@ std::optional<toml::table> parse_text(const std::string& text, Diagnostics& d) {
 
 void read_root(Table& root, SceneResult& r, const fs::path& folder) {
   Scene& s = r.scene;
-  if (root.require("scene", s.name) && !is_plain(s.name)) root.fail("scene", "names a folder: use letters, digits, - and _ only");
+  if (root.require("scene", s.name) && !is_plain(s.name))
+    root.fail("scene", "names a folder: use letters, digits, - and _ only");
   root.require_section("mesh", [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
   read_materials(root, s);
   root.section("physics", [&](Table& t) { read_physics(t, s.physics); });
@@ -65,7 +66,7 @@ SceneResult read_scene(const fs::path& file, const std::vector<std::string>& set
   if (std::optional<toml::table> tree = parse_text(*text, d)) {
     for (Setting& s : parsed) apply(*tree, std::move(s), d);
     std::ostringstream resolved;
-    resolved << toml::toml_formatter{*tree};       // keys sorted, comments gone
+    resolved << toml::toml_formatter{*tree};  // keys sorted, comments gone
     r.resolved = resolved.str();
     Table root(*tree, "", d);
     read_root(root, r, file.parent_path());

@@ -11,9 +11,10 @@ namespace nanson {
 
 struct SceneResult {
   Scene scene;
-  std::vector<std::string> errors;                 // "file:line:column: key = found: why", sorted; the scene is valid when there are none
-  std::string resolved;                            // the TOML with all settings in it: what makes one run differ from another
-  bool mesh_valid = false;                         // the mesh can be made, and names checked against it, although other sections are wrong
+  std::vector<std::string>
+      errors;               // "file:line:column: key = found: why", sorted; the scene is valid when there are none
+  std::string resolved;     // the TOML with all settings in it: what makes one run differ from another
+  bool mesh_valid = false;  // the mesh can be made, and names checked against it, although other sections are wrong
 };
 
 /// `settings` are "a.b=VALUE"; they override the file and are checked like it.

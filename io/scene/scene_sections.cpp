@@ -20,7 +20,8 @@ void check_count(Table& t, const std::array<int, 3>& cells) {
   }
   const double limit = std::numeric_limits<int>::max();
   if (std::max(nodes, tets) > limit)
-    t.fail("cells", fmt::format("makes {:.3g} nodes and {:.3g} tets, at most {} of each can be numbered", nodes, tets, limit));
+    t.fail("cells",
+           fmt::format("makes {:.3g} nodes and {:.3g} tets, at most {} of each can be numbered", nodes, tets, limit));
 }
 
 void read_mesh_file(Table& t, MeshSpec& m, const std::filesystem::path& folder) {
@@ -28,22 +29,30 @@ void read_mesh_file(Table& t, MeshSpec& m, const std::filesystem::path& folder) 
   if (!t.read("file", name) || !t.has("file")) return;
   m.file = {(folder / name).string(), where(t.diagnostics(), t.place("file"))};
   std::error_code error;
-  if (!std::filesystem::is_regular_file(m.file.name, error)) t.fail("file", fmt::format("there is no file {}", m.file.name));
+  if (!std::filesystem::is_regular_file(m.file.name, error))
+    t.fail("file", fmt::format("there is no file {}", m.file.name));
 }
 
 /// The core of a quarter is m x m cells, m half the tangential ones.
 void read_cylinder_cells(Table& t, MeshSpec& m) {
   if (!t.require("cells", m.cells, {.from = 1})) return;
-  if (m.cells[1] % 2 != 0) return t.fail("cells", fmt::format("the second number, {} tangential cells, must be even: half of them bound the core on each side", m.cells[1]));
+  if (m.cells[1] % 2 != 0)
+    return t.fail(
+        "cells",
+        fmt::format("the second number, {} tangential cells, must be even: half of them bound the core on each side",
+                    m.cells[1]));
   if (m.cells[0] <= m.cells[1] / 2)
-    return t.fail("cells", fmt::format("the first number, {} radial cells, must be above half the second, {}, which the core takes", m.cells[0], m.cells[1] / 2));
+    return t.fail(
+        "cells",
+        fmt::format("the first number, {} radial cells, must be above half the second, {}, which the core takes",
+                    m.cells[0], m.cells[1] / 2));
   check_count(t, m.cells);
 }
 
 bool normalise(Vec3& direction) {
   const double largest = std::max({std::abs(direction[0]), std::abs(direction[1]), std::abs(direction[2])});
   if (largest == 0) return false;
-  for (double& x : direction) x /= largest;        // first, so that no square over- or underflows
+  for (double& x : direction) x /= largest;  // first, so that no square over- or underflows
   const double length = std::hypot(direction[0], direction[1], direction[2]);
   for (double& x : direction) x /= length;
   return true;
@@ -64,10 +73,14 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
   std::string beside;
   for (const std::string_view source : words(m.source)) {
     if (!t.has(source)) continue;
-    if (!beside.empty()) t.fail(source, fmt::format("stands beside mesh.{}, exactly one of {} is allowed", beside, join_words(words(m.source))));
+    if (!beside.empty())
+      t.fail(source,
+             fmt::format("stands beside mesh.{}, exactly one of {} is allowed", beside, join_words(words(m.source))));
     else beside = source;
   }
-  if (beside.empty()) t.missing({"box", "cylinder", "needle", "file"}, fmt::format("mesh: exactly one of {} is needed", join_words(words(m.source))));
+  if (beside.empty())
+    t.missing({"box", "cylinder", "needle", "file"},
+              fmt::format("mesh: exactly one of {} is needed", join_words(words(m.source))));
   if (beside == "cylinder") m.source = MeshSource::cylinder;
   if (beside == "needle") m.source = MeshSource::needle;
   if (beside == "file") m.source = MeshSource::file;
@@ -82,11 +95,13 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
   });
   t.section("needle", [&](Table& n) {
     const bool inner = n.require("inner", m.inner, {.above = 0}), outer = n.require("outer", m.outer, {.above = 0});
-    if (inner && outer && m.outer <= m.inner) n.fail("outer", fmt::format("must be above mesh.needle.inner, {:g}", m.inner));
+    if (inner && outer && m.outer <= m.inner)
+      n.fail("outer", fmt::format("must be above mesh.needle.inner, {:g}", m.inner));
     n.require("angle", m.angle, {.above = 0, .to = 90});
   });
   read_mesh_file(t, m, folder);
-  if (m.source == MeshSource::file) return t.only("file", {}, std::array<std::string_view, 4>{"cells", "split", "perturb", "regions"});
+  if (m.source == MeshSource::file)
+    return t.only("file", {}, std::array<std::string_view, 4>{"cells", "split", "perturb", "regions"});
   if (m.source == MeshSource::cylinder) {
     t.only("cylinder", {}, std::array<std::string_view, 3>{"split", "perturb", "regions"});
     return read_cylinder_cells(t, m);
@@ -110,23 +125,30 @@ void read_physics(Table& t, PhysicsSpec& p) {
   t.read("reconstruction", p.reconstruction);
   t.read("flux_correction", p.flux_correction);
   t.read("boundary_flux", p.boundary_flux);
-  t.read("upwind_metric", p.upwind_metric);        // both words also with linear_elastic: there H = I and they agree
+  t.read("upwind_metric", p.upwind_metric);  // both words also with linear_elastic: there H = I and they agree
   t.read("entropy_fix", p.entropy_fix);
   t.read("parting", p.parting, {.from = 0});
   t.read("keep_angular_momentum", p.keep_angular_momentum);
   const bool corrected = t.sound("flux_correction") && p.flux_correction != FluxCorrection::none;
   if (corrected && t.sound("reconstruction") && p.reconstruction == Reconstruction::constant)
-    t.fail("flux_correction", "needs reconstruction = \"linear\" or \"limited\": the correction is made of its gradients");
-  if (t.sound("pressure_jump") && p.pressure_jump == PressureJump::tensor && (p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none))
+    t.fail("flux_correction",
+           "needs reconstruction = \"linear\" or \"limited\": the correction is made of its gradients");
+  if (t.sound("pressure_jump") && p.pressure_jump == PressureJump::tensor
+      && (p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none))
     t.fail("pressure_jump", fmt::format("is not built with limited or entropy_fix; {}", what_is_built));
-  if (t.sound("stabilisation") && p.stabilisation == Stabilisation::jst &&
-      (p.reconstruction != Reconstruction::linear || p.flux_correction != FluxCorrection::none || p.pressure_jump != PressureJump::scalar ||
-       p.entropy_fix != EntropyFix::none || p.upwind_metric != UpwindMetric::deformed))
-    t.fail("stabilisation", fmt::format("jst has no reconstruction, flux_correction, pressure_jump, upwind_metric or entropy_fix to choose; {}", what_is_built));
+  if (t.sound("stabilisation") && p.stabilisation == Stabilisation::jst
+      && (p.reconstruction != Reconstruction::linear || p.flux_correction != FluxCorrection::none
+          || p.pressure_jump != PressureJump::scalar || p.entropy_fix != EntropyFix::none
+          || p.upwind_metric != UpwindMetric::deformed))
+    t.fail("stabilisation",
+           fmt::format(
+               "jst has no reconstruction, flux_correction, pressure_jump, upwind_metric or entropy_fix to choose; {}",
+               what_is_built));
 }
 
 void read_projection(Table& t, ProjectionSpec& p) {
-  if (read_kind<ProjectionSolver>(t, "solver", p.solver, false, {{ProjectionSolver::pseudo_time, {"length_scale"}}}) && p.solver == ProjectionSolver::pseudo_time)
+  if (read_kind<ProjectionSolver>(t, "solver", p.solver, false, {{ProjectionSolver::pseudo_time, {"length_scale"}}})
+      && p.solver == ProjectionSolver::pseudo_time)
     t.require("length_scale", p.length_scale, {.above = 0});
   t.read("stabilisation", p.stabilisation, {.from = 0});
   t.read("drift_control", p.drift_control, {.from = 0, .to = 1});
@@ -180,7 +202,7 @@ void read_time(Table& t, TimeSpec& s) {
   t.require("end", s.end, {.above = 0});
   t.read("integrator", s.integrator);
   if (s.integrator == Integrator::ssp_rk3) s.cfl = 0.6;
-  t.read("cfl", s.cfl, {.above = 0, .to = 2});     // no explicit scheme is stable above: larger is a slip of the pen
+  t.read("cfl", s.cfl, {.above = 0, .to = 2});  // no explicit scheme is stable above: larger is a slip of the pen
   t.read("step", s.step);
   t.read("dt_max", s.dt_max, {.above = 0});
   t.read("dt_collapse", s.dt_collapse, {.above = 0, .below = 1});

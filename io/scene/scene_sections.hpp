@@ -43,7 +43,8 @@ bool read_kind(Table& t, std::string_view key, Kind& kind, bool required, const 
     t.pass(all);
     return false;
   }
-  for (const auto& entry : table) if (entry.kind == kind) own = entry.keys;
+  for (const auto& entry : table)
+    if (entry.kind == kind) own = entry.keys;
   t.only(word(kind), own, all);
   return true;
 }

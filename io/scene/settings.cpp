@@ -15,17 +15,21 @@ namespace {
 
 bool is_bare_word(std::string_view text) {
   constexpr std::string_view signs = "_-+./:~";
-  const auto fits = [&](unsigned char c) { return std::isalnum(c) || c >= 0x80 || signs.find(static_cast<char>(c)) != std::string_view::npos; };
+  const auto fits = [&](unsigned char c) {
+    return std::isalnum(c) || c >= 0x80 || signs.find(static_cast<char>(c)) != std::string_view::npos;
+  };
   return !text.empty() && std::all_of(text.begin(), text.end(), fits);
 }
 
-void reject(const Setting& s, std::string_view why, Diagnostics& d) { report(d, Place{s.number}, fmt::format("{}: {}", s.text, why)); }
+void reject(const Setting& s, std::string_view why, Diagnostics& d) {
+  report(d, Place{s.number}, fmt::format("{}: {}", s.text, why));
+}
 
 std::optional<std::vector<std::string>> parse_path(std::string_view key) {
   std::vector<std::string> path;
   try {
     const toml::table tree = toml::parse(std::string(key) + " = 0");
-    if (tree.empty()) return std::nullopt;         // the key was a comment
+    if (tree.empty()) return std::nullopt;  // the key was a comment
     for (const toml::table* t = &tree; t; t = t->begin()->second.as_table()) path.emplace_back(t->begin()->first.str());
   } catch (const toml::parse_error&) {
     return std::nullopt;
@@ -43,7 +47,7 @@ std::optional<toml::table> parse_value(std::string_view value, long number, std:
   try {
     return toml::parse(fmt::format("value = \"{}\"", value), source_of_setting(number));
   } catch (const toml::parse_error&) {
-    return std::nullopt;                           // not UTF-8, as `why` says
+    return std::nullopt;  // not UTF-8, as `why` says
   }
 }
 
@@ -52,9 +56,12 @@ std::vector<std::string> names_of(const toml::node& entry) {
   std::vector<std::string> names;
   const auto* t = entry.as_table();
   const toml::node* face = t ? t->get(t->contains("face") ? "face" : "region") : nullptr;
-  const auto add = [&](const toml::node& n) { if (const auto* s = n.as_string()) names.push_back(s->get()); };
+  const auto add = [&](const toml::node& n) {
+    if (const auto* s = n.as_string()) names.push_back(s->get());
+  };
   if (face) add(*face);
-  if (const auto* list = face ? face->as_array() : nullptr) for (const toml::node& n : *list) add(n);
+  if (const auto* list = face ? face->as_array() : nullptr)
+    for (const toml::node& n : *list) add(n);
   return names;
 }
 
@@ -85,7 +92,9 @@ toml::table made_by(long number) {
   return std::move(*holder.get_as<toml::table>("made"));
 }
 
-toml::key key_by(const std::string& name, const toml::table& holder) { return toml::key{name, holder.begin()->first.source()}; }
+toml::key key_by(const std::string& name, const toml::table& holder) {
+  return toml::key{name, holder.begin()->first.source()};
+}
 
 }  // namespace
 

@@ -9,10 +9,10 @@ namespace nanson {
 
 /// One --set: VALUE is TOML, or a bare word that stands for a string.
 struct Setting {
-  long number = 0;                                 // from 1, in the order of the command line
+  long number = 0;  // from 1, in the order of the command line
   std::string text;
-  std::vector<std::string> path;                   // {"a", "b"}
-  toml::table holder;                              // { value = VALUE }
+  std::vector<std::string> path;  // {"a", "b"}
+  toml::table holder;             // { value = VALUE }
 };
 
 /// The settings that can be understood; the others are reported.

@@ -22,7 +22,9 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 bool is_plain(std::string_view name) {
-  const auto plain = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-'; };
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
+  };
   return !name.empty() && std::all_of(name.begin(), name.end(), plain);
 }
 

@@ -32,7 +32,8 @@ std::string nearest_word(std::string_view word, const Words& words) {
   std::string best;
   for (const auto& known : words) {
     const std::string_view k = known;
-    if (std::max(k.size(), word.size()) - std::min(k.size(), word.size()) >= reach) continue;  // spares the table of long words
+    if (std::max(k.size(), word.size()) - std::min(k.size(), word.size()) >= reach)
+      continue;  // spares the table of long words
     if (const std::size_t d = edit_distance(word, k); d < reach) {
       reach = d;
       best = k;
@@ -46,7 +47,8 @@ template <class Words>
 std::string unknown_word(std::string_view what, std::string_view word, const Words& allowed) {
   const std::string near = nearest_word(word, allowed);
   const std::string list = join_words(allowed);
-  return fmt::format("unknown {}{} allowed: {}", what, near.empty() ? "," : fmt::format(", did you mean \"{}\"?", near), list.empty() ? "none" : list);
+  return fmt::format("unknown {}{} allowed: {}", what, near.empty() ? "," : fmt::format(", did you mean \"{}\"?", near),
+                     list.empty() ? "none" : list);
 }
 
 }  // namespace nanson

@@ -7,8 +7,8 @@
 
 #include "io/child_process.hpp"
 #include "io/replace_file.hpp"
-#include "io/text_file.hpp"
 #include "io/study/write_study.hpp"
+#include "io/text_file.hpp"
 
 namespace nanson {
 namespace {
@@ -27,7 +27,8 @@ fs::path find_program(const std::string& name) {
 }
 
 void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size())) text.replace(at, from.size(), to);
+  for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+    text.replace(at, from.size(), to);
 }
 
 /// The <svg> element alone, its ids made unlike those of other plots on the page, named by its title for those who cannot see it.
@@ -36,7 +37,10 @@ std::string inline_svg(std::string svg, const StudyPlot& plot) {
   if (begin == std::string::npos || end == std::string::npos) return "";
   svg = svg.substr(begin, end + 6 - begin);
   const std::string mark = plot.name + "-";
-  for (const char* quote : {"'", "\""}) replace_all(svg, fmt::format(" id={}", quote), fmt::format(" id={}{}", quote, mark)), replace_all(svg, fmt::format("xlink:href={}#", quote), fmt::format("xlink:href={}#{}", quote, mark));
+  for (const char* quote : {"'", "\""}) {
+    replace_all(svg, fmt::format(" id={}", quote), fmt::format(" id={}{}", quote, mark));
+    replace_all(svg, fmt::format("xlink:href={}#", quote), fmt::format("xlink:href={}#{}", quote, mark));
+  }
   replace_all(svg, "url(#", fmt::format("url(#{}", mark));
   replace_all(svg, "<title>Gnuplot</title>", fmt::format("<title>{}</title>", escaped(plot.title)));
   replace_all(svg, "<desc>Produced by GNUPLOT", "<desc>Made by GNUPLOT");
@@ -49,17 +53,22 @@ std::vector<std::string> draw(std::vector<StudyPlot>& plots, const fs::path& fol
   std::vector<std::string> lines;
   if (plots.empty()) return lines;
   const fs::path gnuplot = find_program("gnuplot");
-  if (gnuplot.empty()) lines.emplace_back("gnuplot is not installed (apt-get install gnuplot-nox): the plots are left as scripts plot-N.gnuplot, table and page are written");
+  if (gnuplot.empty())
+    lines.emplace_back(
+        "gnuplot is not installed (apt-get install gnuplot-nox): the plots are left as scripts plot-N.gnuplot, table "
+        "and page are written");
   for (StudyPlot& plot : plots) {
-    const fs::path script = folder / (plot.name + ".gnuplot"), svg = folder / (plot.name + ".svg"), log = folder / (plot.name + ".log");
+    const fs::path script = folder / (plot.name + ".gnuplot"), svg = folder / (plot.name + ".svg"),
+                   log = folder / (plot.name + ".log");
     std::string title = plot.title;
     replace_all(title, "\n", " ");
-    replace_file(script, fmt::format("# {}: gnuplot {}.gnuplot > {}.svg\n{}", title, plot.name, plot.name, plot.script));
+    replace_file(script,
+                 fmt::format("# {}: gnuplot {}.gnuplot > {}.svg\n{}", title, plot.name, plot.name, plot.script));
     fs::remove(svg);
     if (gnuplot.empty()) continue;
     const fs::path raw = folder / (plot.name + ".tmp.svg"), run = folder / (plot.name + ".tmp.gnuplot");
     std::string output = raw.string();
-    replace_all(output, "'", "''");               // as gnuplot writes a quote inside quotes
+    replace_all(output, "'", "''");  // as gnuplot writes a quote inside quotes
     replace_file(run, fmt::format("set output '{}'\n", output) + plot.script);
     const ChildEnd end = run_child({gnuplot.string(), run.string()}, log, {60, 5}, [] { return 0; });
     std::string why;
@@ -71,7 +80,8 @@ std::vector<std::string> draw(std::vector<StudyPlot>& plots, const fs::path& fol
       replace_file(svg, fmt::format("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}\n", plot.svg));
       fs::remove(log);
     }
-    fs::remove(raw), fs::remove(run);
+    fs::remove(raw);
+    fs::remove(run);
   }
   return lines;
 }

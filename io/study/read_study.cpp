@@ -27,7 +27,10 @@ std::vector<std::pair<std::string, const toml::node*>> entries_of(const toml::ta
 /// True for "mesh.cells"; a bare word would be a whole section, or an unquoted key that TOML takes for one.
 bool is_scene_key(Diagnostics& d, const toml::node& node, const std::string& path, const std::string& key) {
   if (key.find('.') != std::string::npos) return true;
-  report(d, node, path, fmt::format("must be section and key in quotes, like \"{}.{}\"", key, node.is_table() && !node.as_table()->empty() ? std::string(node.as_table()->begin()->first.str()) : "key"));
+  report(d, node, path,
+         fmt::format("must be section and key in quotes, like \"{}.{}\"", key,
+                     node.is_table() && !node.as_table()->empty() ? std::string(node.as_table()->begin()->first.str())
+                                                                  : "key"));
   return false;
 }
 
@@ -38,7 +41,8 @@ void read_settings(Table& t, std::string_view section, std::vector<StudySetting>
   if (!table) return t.fail(section, "must be a table of scene keys and values, like { \"time.end\" = 0.01 }");
   for (const auto& [key, value] : entries_of(*table)) {
     const std::string path = fmt::format("{}.{}", t.path(section), shown_key(key));
-    if (is_scene_key(t.diagnostics(), *value, path, key)) settings.push_back({key, toml_text(*value), where(t.diagnostics(), place_of(value->source()))});
+    if (is_scene_key(t.diagnostics(), *value, path, key))
+      settings.push_back({key, toml_text(*value), where(t.diagnostics(), place_of(value->source()))});
   }
 }
 
@@ -49,14 +53,21 @@ void read_range(Diagnostics& d, const toml::table& table, const std::string& pat
   AxisScale scale = AxisScale::linear;
   const std::size_t before = d.found.size();
   Table t(table, path, d);
-  t.require("from", from), t.require("to", to), t.require("count", count, {.from = 2, .to = 1000}), t.read("scale", scale);
+  t.require("from", from);
+  t.require("to", to);
+  t.require("count", count, {.from = 2, .to = 1000});
+  t.read("scale", scale);
   if (scale == AxisScale::log && !(from > 0 && to > 0)) t.fail("scale", "needs from and to above 0");
   t.finish();
   if (d.found.size() > before) return;
   for (long i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / static_cast<double>(count - 1);
-    const double value = i == 0 ? from : i == count - 1 ? to : scale == AxisScale::log ? from * std::pow(to / from, share) : from + share * (to - from);
-    axis.values.push_back({axis.key, toml_text(toml::value<double>{std::stod(fmt::format("{:.12g}", value))}), where(d, place_of(table.source()))});  // 0.3, not 0.30000000000000004
+    const double value = i == 0                    ? from
+                         : i == count - 1          ? to
+                         : scale == AxisScale::log ? from * std::pow(to / from, share)
+                                                   : from + share * (to - from);
+    axis.values.push_back({axis.key, toml_text(toml::value<double>{std::stod(fmt::format("{:.12g}", value))}),
+                           where(d, place_of(table.source()))});  // 0.3, not 0.30000000000000004
   }
 }
 
@@ -64,7 +75,8 @@ void read_vary(Table& t, std::vector<StudyAxis>& axes) {
   const toml::node* node = t.find("vary");
   if (!node) return;
   const auto* table = node->as_table();
-  if (!table || table->empty()) return t.fail("vary", "must be a table of scene keys and lists of values, at least one");
+  if (!table || table->empty())
+    return t.fail("vary", "must be a table of scene keys and lists of values, at least one");
   Diagnostics& d = t.diagnostics();
   for (const auto& [key, value] : entries_of(*table)) {
     const std::string path = fmt::format("vary.{}", shown_key(key));
@@ -72,7 +84,8 @@ void read_vary(Table& t, std::vector<StudyAxis>& axes) {
     StudyAxis axis{key, {}};
     const auto* list = value->as_array();
     if (const auto* range = value->as_table()) read_range(d, *range, path, axis);
-    else if (!list || list->empty()) report(d, *value, path, "must be a list of values, at least one, or a range { from, to, count }");
+    else if (!list || list->empty())
+      report(d, *value, path, "must be a list of values, at least one, or a range { from, to, count }");
     for (std::size_t i = 0; list && i < list->size(); ++i) {
       const toml::node& one = (*list)[i];
       axis.values.push_back({key, toml_text(one), where(d, place_of(one.source()))});
@@ -89,7 +102,8 @@ void read_cases(Table& root, Study& study, const fs::path& folder) {
     std::string scene;
     if (t.require("name", c.name)) {
       const auto same = [&](const StudyCase& other) { return other.name == c.name; };
-      if (c.name.empty() || std::any_of(study.cases.begin(), study.cases.end(), same)) t.fail("name", "must be a name of its own");
+      if (c.name.empty() || std::any_of(study.cases.begin(), study.cases.end(), same))
+        t.fail("name", "must be a name of its own");
     }
     if (t.read("scene", scene) && t.has("scene")) c.scene = (folder / scene).lexically_normal();
     read_settings(t, "set", c.settings);
@@ -99,7 +113,8 @@ void read_cases(Table& root, Study& study, const fs::path& folder) {
 }
 
 void read_root(Table& root, Study& s, const fs::path& folder) {
-  if (root.require("study", s.name) && !is_plain(s.name)) root.fail("study", "names a folder: use letters, digits, - and _ only");
+  if (root.require("study", s.name) && !is_plain(s.name))
+    root.fail("study", "names a folder: use letters, digits, - and _ only");
   root.require("kind", s.kind);
   std::string scene;
   root.read("scene", scene);
@@ -112,10 +127,12 @@ void read_root(Table& root, Study& s, const fs::path& folder) {
   const auto has_own = [](const StudyCase& c) { return !c.scene.empty(); };
   const bool all_own = !s.cases.empty() && std::all_of(s.cases.begin(), s.cases.end(), has_own);
   if (!root.has("scene") && !all_own) root.missing({"scene"}, "scene: is missing, or every [[case]] needs its own");
-  if (s.vary.empty() && s.cases.empty() && !root.has("vary") && !root.has("case")) root.missing({"vary", "case"}, "a study needs [vary] or [[case]]: what its runs differ in");
+  if (s.vary.empty() && s.cases.empty() && !root.has("vary") && !root.has("case"))
+    root.missing({"vary", "case"}, "a study needs [vary] or [[case]]: what its runs differ in");
   set_report_defaults(s);
   root.section("report", [&](Table& t) { read_study_report(t, s, folder); });
-  if (!root.has("report") && root.sound("kind") && s.kind != StudyKind::stability) root.missing({"report"}, "report.y: is missing: what the plots show");
+  if (!root.has("report") && root.sound("kind") && s.kind != StudyKind::stability)
+    root.missing({"report"}, "report.y: is missing: what the plots show");
 }
 
 }  // namespace
@@ -132,7 +149,8 @@ std::string toml_text(const toml::node& value) {
     return fmt::format("[{}]", join_words(parts, ", "));
   }
   if (const auto* table = value.as_table()) {
-    for (const auto& [key, entry] : entries_of(*table)) parts.push_back(fmt::format("{} = {}", shown_key(key), toml_text(*entry)));
+    for (const auto& [key, entry] : entries_of(*table))
+      parts.push_back(fmt::format("{} = {}", shown_key(key), toml_text(*entry)));
     return fmt::format("{{ {} }}", join_words(parts, ", "));
   }
   std::ostringstream out;

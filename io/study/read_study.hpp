@@ -12,7 +12,8 @@ namespace nanson {
 
 struct StudyResult {
   Study study;
-  std::vector<std::string> errors;                 // "file:line:column: key = found: why", sorted; the study is valid when there are none
+  std::vector<std::string>
+      errors;  // "file:line:column: key = found: why", sorted; the study is valid when there are none
 };
 
 /// Scenes that the study names are not read here: io/study_scenes checks them with the settings of every run.

@@ -12,10 +12,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::array<std::string_view, 8> of_kinds{"x", "lines", "panels", "x_scale", "y_scale", "reference", "reference_note", "baseline"};
-constexpr std::array<std::string_view, 14> of_curves{"title", "text", "x", "y", "lines", "panels", "rate_over", "x_scale", "y_scale", "reference", "reference_note", "max_wall_s", "energy_tolerance", "checkerboard_max"};
-constexpr std::array<std::string_view, 8> of_a_map{"title", "text", "x", "y", "rate_over", "max_wall_s", "energy_tolerance", "checkerboard_max"};
-constexpr std::array<std::string_view, 8> of_bars{"title", "text", "y", "rate_over", "baseline", "max_wall_s", "energy_tolerance", "checkerboard_max"};
+constexpr std::array<std::string_view, 8> of_kinds{"x",       "lines",     "panels",         "x_scale",
+                                                   "y_scale", "reference", "reference_note", "baseline"};
+constexpr std::array<std::string_view, 14> of_curves{"title",
+                                                     "text",
+                                                     "x",
+                                                     "y",
+                                                     "lines",
+                                                     "panels",
+                                                     "rate_over",
+                                                     "x_scale",
+                                                     "y_scale",
+                                                     "reference",
+                                                     "reference_note",
+                                                     "max_wall_s",
+                                                     "energy_tolerance",
+                                                     "checkerboard_max"};
+constexpr std::array<std::string_view, 8> of_a_map{
+    "title", "text", "x", "y", "rate_over", "max_wall_s", "energy_tolerance", "checkerboard_max"};
+constexpr std::array<std::string_view, 8> of_bars{
+    "title", "text", "y", "rate_over", "baseline", "max_wall_s", "energy_tolerance", "checkerboard_max"};
 
 /// What report.x and report.y may name besides varied keys: the numbers of summary.json and those that the study makes of them.
 std::vector<std::string> known_quantities() {
@@ -60,7 +76,8 @@ void read_reference_file(Table& t, const fs::path& file, ReportSpec& r) {
 }
 
 /// One name or a list of them; each place is kept in `places`.
-void read_names(Table& t, std::string_view key, std::vector<std::string>& names, const std::vector<std::string>& allowed, std::string_view what,
+void read_names(Table& t, std::string_view key, std::vector<std::string>& names,
+                const std::vector<std::string>& allowed, std::string_view what,
                 std::map<std::string, std::string>* places = nullptr) {
   const toml::node* node = t.find(key);
   if (!node) return;
@@ -69,15 +86,19 @@ void read_names(Table& t, std::string_view key, std::vector<std::string>& names,
   else if (!t.read(key, read)) return;
   names.clear();
   for (const Word& w : read) {
-    if (what == "quantity" && (w.text.starts_with("probes.") || w.text.starts_with("sweeps.") || w.text.starts_with("setup."))) {}  // known to the runs only
-    else if (std::find(allowed.begin(), allowed.end(), w.text) == allowed.end()) report(t.diagnostics(), w, unknown_word(what, w.text, allowed));
+    if (what == "quantity"
+        && (w.text.starts_with("probes.") || w.text.starts_with("sweeps.") || w.text.starts_with("setup."))) {
+    }  // known to the runs only
+    else if (std::find(allowed.begin(), allowed.end(), w.text) == allowed.end())
+      report(t.diagnostics(), w, unknown_word(what, w.text, allowed));
     if (places) places->emplace(w.text, fmt::format("{}: {}", where(t.diagnostics(), w.place), w.path));
     names.push_back(w.text);
   }
 }
 
 /// One name; what stands in `name` stays when the key is not there.
-void read_one_name(Table& t, std::string_view key, std::string& name, const std::vector<std::string>& allowed, std::string_view what, std::map<std::string, std::string>* places = nullptr) {
+void read_one_name(Table& t, std::string_view key, std::string& name, const std::vector<std::string>& allowed,
+                   std::string_view what, std::map<std::string, std::string>* places = nullptr) {
   if (!t.has(key)) return;
   std::vector<std::string> names;
   read_names(t, key, names, allowed, what, places);
@@ -91,7 +112,8 @@ void read_quantities(Table& t, Study& s, const std::vector<std::string>& keys) {
   quantities.insert(quantities.end(), keys.begin(), keys.end());
   const auto varied = [&](const std::string& name) { return std::find(keys.begin(), keys.end(), name) != keys.end(); };
   if (s.kind != StudyKind::compare) read_one_name(t, "x", r.x, quantities, "quantity", &r.where);
-  if (s.kind == StudyKind::stability && t.has("x") && !varied(r.x)) t.fail("x", "must be a varied key: it is the horizontal side of the map");
+  if (s.kind == StudyKind::stability && t.has("x") && !varied(r.x))
+    t.fail("x", "must be a varied key: it is the horizontal side of the map");
   read_names(t, "y", r.y, quantities, "quantity", &r.where);
   for (const std::string& y : r.y)
     if (varied(y)) t.fail("y", fmt::format("{} is varied, not a result", y));
@@ -102,7 +124,8 @@ void read_quantities(Table& t, Study& s, const std::vector<std::string>& keys) {
 
 void read_reference(Table& t, ReportSpec& r, const fs::path& folder) {
   t.read("reference_note", r.reference_note);
-  if (t.has("reference_note") && !t.has("reference")) t.fail("reference_note", "is about report.reference, which is missing");
+  if (t.has("reference_note") && !t.has("reference"))
+    t.fail("reference_note", "is about report.reference, which is missing");
   const toml::node* reference = t.find("reference");
   if (!reference) return;
   std::string file;
@@ -114,7 +137,8 @@ void read_curves(Table& t, ReportSpec& r, const std::vector<std::string>& keys, 
   read_names(t, "lines", r.lines, keys, "varied key");
   read_one_name(t, "panels", r.panels, keys, "varied key");
   if (!r.panels.empty() && r.panels == r.x) t.fail("panels", "is report.x");
-  t.read("x_scale", r.x_scale), t.read("y_scale", r.y_scale);
+  t.read("x_scale", r.x_scale);
+  t.read("y_scale", r.y_scale);
   read_reference(t, r, folder);
 }
 
@@ -122,7 +146,9 @@ void read_baseline(Table& t, Study& s) {
   std::vector<std::string> names;
   for (const StudyCase& c : s.cases) names.push_back(c.name);
   std::string& baseline = s.report.baseline;
-  if (t.read("baseline", baseline) && t.has("baseline") && std::find(names.begin(), names.end(), baseline) == names.end()) t.fail("baseline", unknown_word("case", baseline, names));
+  if (t.read("baseline", baseline) && t.has("baseline")
+      && std::find(names.begin(), names.end(), baseline) == names.end())
+    t.fail("baseline", unknown_word("case", baseline, names));
 }
 
 }  // namespace
@@ -131,7 +157,8 @@ void set_report_defaults(Study& s) {
   ReportSpec& r = s.report;
   const std::vector<std::string> keys = varied_keys(s);
   if (s.kind == StudyKind::convergence) {
-    r.x = std::string("h"), r.x_scale = r.y_scale = AxisScale::log;
+    r.x = std::string("h");
+    r.x_scale = r.y_scale = AxisScale::log;
     r.rate_over = std::find(keys.begin(), keys.end(), "mesh.cells") != keys.end() ? "mesh.cells" : "";
   } else if (!keys.empty()) {
     r.x = keys.back();
@@ -145,7 +172,8 @@ void read_study_report(Table& t, Study& s, const fs::path& folder) {
   else if (has_curves(s.kind)) t.only("a study with curves", of_curves, of_kinds);
   else if (s.kind == StudyKind::stability) t.only("a stability map", of_a_map, of_kinds);
   else t.only("a comparison", of_bars, of_kinds);
-  t.read("title", r.title), t.read("text", r.text);
+  t.read("title", r.title);
+  t.read("text", r.text);
   read_quantities(t, s, keys);
   read_one_name(t, "rate_over", r.rate_over, keys, "varied key");
   if (has_curves(s.kind)) read_curves(t, r, keys, folder);

@@ -2,8 +2,8 @@
 #pragma once
 #include <filesystem>
 
-#include "io/study/study.hpp"
 #include "io/scene/config_table.hpp"
+#include "io/study/study.hpp"
 
 namespace nanson {
 

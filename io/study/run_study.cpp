@@ -11,26 +11,27 @@
 
 #include "io/child_process.hpp"
 #include "io/progress.hpp"
-#include "io/study/read_study.hpp"
-#include "io/results/read_summary.hpp"
 #include "io/replace_file.hpp"
+#include "io/results/read_summary.hpp"
 #include "io/results/results_folder.hpp"
 #include "io/signals.hpp"
-#include "io/text_file.hpp"
+#include "io/study/read_study.hpp"
 #include "io/study/write_study.hpp"
+#include "io/text_file.hpp"
 
 namespace nanson {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* record_name = "run.toml";    // written last: a folder with it holds a finished run
+constexpr const char* record_name = "run.toml";  // written last: a folder with it holds a finished run
 
 /// What a finished run must have been made by to stand: a build from changed files is known by its content only.
 std::string program_identity(const Provenance& from) {
   const bool clean = from.commit != "unknown" && !from.commit.ends_with('+');
   std::string why;
-  return fmt::format("{} {}{}", from.version, from.commit, clean ? "" : fmt::format(" {}", text_hash(read_text_file(own_program, why).value_or(""))));
+  return fmt::format("{} {}{}", from.version, from.commit,
+                     clean ? "" : fmt::format(" {}", text_hash(read_text_file(own_program, why).value_or(""))));
 }
 
 std::string machine_name() {
@@ -53,22 +54,28 @@ std::string end_of_log(const fs::path& file) {
 
 RunOutcome outcome_in(const fs::path& folder, int code, bool too_slow, double wall_s) {
   RunOutcome o;
-  o.exit_code = code, o.too_slow = too_slow, o.wall_s = wall_s;
+  o.exit_code = code;
+  o.too_slow = too_slow;
+  o.wall_s = wall_s;
   o.summary = read_summary(folder / "summary.json");
   o.history = read_history(folder / "history.csv");
   if (!o.summary) o.last_words = end_of_log(folder / "log.txt");
   return o;
 }
 
-void write_record(const fs::path& folder, const StudyRun& run, const ChildEnd& end, const std::string& program, double max_wall_s) {
-  const toml::table record{{"hash", run.hash}, {"program", program}, {"exit_code", end.code}, {"too_slow", end.too_slow}, {"max_wall_s", max_wall_s}, {"wall_s", end.wall_s}};
+void write_record(const fs::path& folder, const StudyRun& run, const ChildEnd& end, const std::string& program,
+                  double max_wall_s) {
+  const toml::table record{{"hash", run.hash},         {"program", program},       {"exit_code", end.code},
+                           {"too_slow", end.too_slow}, {"max_wall_s", max_wall_s}, {"wall_s", end.wall_s}};
   std::ostringstream text;
-  text << "# A finished run of a study: it is made again when this file goes, or the program changes.\n" << record << '\n';
+  text << "# A finished run of a study: it is made again when this file goes, or the program changes.\n"
+       << record << '\n';
   replace_file(folder / record_name, text.str());
 }
 
 /// The outcome of a finished run, if there is one that still stands: same scene, same program, and not one that was ended for a shorter time than it has now.
-std::optional<RunOutcome> finished(const fs::path& folder, const StudyRun& run, const std::string& program, double max_wall_s) {
+std::optional<RunOutcome> finished(const fs::path& folder, const StudyRun& run, const std::string& program,
+                                   double max_wall_s) {
   std::string why;
   const auto text = read_text_file(folder / record_name, why);
   if (!text) return std::nullopt;
@@ -78,7 +85,8 @@ std::optional<RunOutcome> finished(const fs::path& folder, const StudyRun& run, 
     const bool ended_for_time = record["too_slow"].value_or(false);
     if (record["hash"].value_or("") != run.hash || record["program"].value_or("") != program) return std::nullopt;
     if (ended_for_time && (max_wall_s == 0 || max_wall_s > had_s)) return std::nullopt;
-    RunOutcome o = outcome_in(folder, record["exit_code"].value_or(0), ended_for_time || (max_wall_s > 0 && wall_s > max_wall_s), wall_s);
+    RunOutcome o = outcome_in(folder, record["exit_code"].value_or(0),
+                              ended_for_time || (max_wall_s > 0 && wall_s > max_wall_s), wall_s);
     if (!o.summary && !o.too_slow) return std::nullopt;
     return o;
   } catch (const toml::parse_error&) {
@@ -91,7 +99,10 @@ std::string time_left(const StudyResults& all, std::size_t next) {
   double cost = 0, seconds = 0, left = 0;
   for (std::size_t i = 0; i < all.runs.size(); ++i) {
     if (i >= next) left += all.runs[i].cost;
-    else cost += all.runs[i].cost, seconds += all.results[i].outcome.wall_s;
+    else {
+      cost += all.runs[i].cost;
+      seconds += all.results[i].outcome.wall_s;
+    }
   }
   return cost > 0 ? duration_text(seconds / cost * left) : "--";
 }
@@ -100,7 +111,8 @@ std::string time_left(const StudyResults& all, std::size_t next) {
 void print_result(const StudyRunResult& r) {
   const Judgement& j = r.judgement;
   const bool cut = j.reason.size() > 160;
-  fmt::print(stderr, "{}{}{}{}{}", r.reused ? "made before, " : "", word(j.verdict), j.reason.empty() ? "" : ": ", j.reason.substr(0, 160), cut ? " ..." : "");
+  fmt::print(stderr, "{}{}{}{}{}", r.reused ? "made before, " : "", word(j.verdict), j.reason.empty() ? "" : ": ",
+             j.reason.substr(0, 160), cut ? " ..." : "");
 }
 
 /// 0, or the signal that ended the study.
@@ -116,7 +128,8 @@ int make_runs(StudyResults& all, const std::string& program) {
     } else {
       fs::create_directories(folder);
       fs::remove(folder / record_name);
-      fs::remove(folder / "summary.json"), fs::remove(folder / "history.csv");  // a child that dies early must not inherit them
+      fs::remove(folder / "summary.json");  // a child that dies early must not inherit them
+      fs::remove(folder / "history.csv");
       std::vector<std::string> command{own_program};
       command.insert(command.end(), run.arguments.begin(), run.arguments.end());
       command.insert(command.end(), {"--quiet", "--out", folder.string()});
@@ -149,15 +162,20 @@ int run_study(const fs::path& file, const std::optional<fs::path>& out, std::vec
   if (!errors.empty()) return 2;
   all.results.resize(all.runs.size());
   const ResultsFolder folder(read.study.name, out);  // held: a second study into it is refused
-  all.folder = folder.path(), all.from = provenance(), all.machine = machine_name();
-  all.command = fmt::format("nanson study {}{}", shell_quoted(file.string()), out ? fmt::format(" --out {}", shell_quoted(out->string())) : "");
-  ::setenv("OMP_WAIT_POLICY", "passive", 0);       // of the children: spinning threads take the cores from everybody
-  fmt::print(stderr, "{}: {} runs, {} thread{} each, results: {}\n", read.study.name, all.runs.size(), read.study.threads, read.study.threads == 1 ? "" : "s", all.folder.string());
+  all.folder = folder.path();
+  all.from = provenance();
+  all.machine = machine_name();
+  all.command = fmt::format("nanson study {}{}", shell_quoted(file.string()),
+                            out ? fmt::format(" --out {}", shell_quoted(out->string())) : "");
+  ::setenv("OMP_WAIT_POLICY", "passive", 0);  // of the children: spinning threads take the cores from everybody
+  fmt::print(stderr, "{}: {} runs, {} thread{} each, results: {}\n", read.study.name, all.runs.size(),
+             read.study.threads, read.study.threads == 1 ? "" : "s", all.folder.string());
   catch_stop_signals();
   const int stopped = make_runs(all, program_identity(all.from));
   find_rates(all);
   for (const std::string& line : write_study(all)) fmt::print(stderr, "{}\n", line);
-  if (stopped != 0) fmt::print(stderr, "{} of {} runs done; the same command goes on from there\n", all.done(), all.runs.size());
+  if (stopped != 0)
+    fmt::print(stderr, "{} of {} runs done; the same command goes on from there\n", all.done(), all.runs.size());
   return stopped != 0 ? 128 + stopped : 0;
 }
 

@@ -8,6 +8,7 @@
 namespace nanson {
 
 /// Exit code: 0 all runs have a verdict, 2 with `errors` the study or one of its scenes is wrong, 128 + n ended by signal n (the same command goes on from there).
-int run_study(const std::filesystem::path& file, const std::optional<std::filesystem::path>& out, std::vector<std::string>& errors);
+int run_study(const std::filesystem::path& file, const std::optional<std::filesystem::path>& out,
+              std::vector<std::string>& errors);
 
 }  // namespace nanson

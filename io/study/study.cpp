@@ -16,7 +16,8 @@ namespace {
 void label(PlannedRun& run, const std::vector<std::string>& keys) {
   for (const std::string& key : keys) {
     const std::string value = readable(run.varied.at(key));
-    run.label += fmt::format("{}{}", run.label.empty() ? "" : ", ", key == "case" ? value : fmt::format("{} = {}", key, value));
+    run.label += fmt::format("{}{}", run.label.empty() ? "" : ", ",
+                             key == "case" ? value : fmt::format("{} = {}", key, value));
   }
   if (run.label.empty()) run.label = "as it stands";
 }
@@ -59,7 +60,8 @@ std::vector<PlannedRun> plan(const Study& study) {
 }
 
 std::string readable(const std::string& value) {
-  const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'') && value.back() == value.front();
+  const bool quoted = value.size() >= 2 && (value.front() == '"' || value.front() == '\'')
+                      && value.back() == value.front();
   return quoted ? value.substr(1, value.size() - 2) : value;
 }
 
@@ -75,7 +77,8 @@ std::optional<double> number_in(const std::string& value) {
 std::string name_of(const PlannedRun& run, const std::vector<std::string>& keys) {
   std::string name;
   for (const std::string& key : keys)
-    if (const auto at = run.varied.find(key); at != run.varied.end()) name += fmt::format("{}{}", name.empty() ? "" : ", ", readable(at->second));
+    if (const auto at = run.varied.find(key); at != run.varied.end())
+      name += fmt::format("{}{}", name.empty() ? "" : ", ", readable(at->second));
   return name;
 }
 

@@ -14,7 +14,9 @@ namespace nanson {
 
 enum class StudyKind { convergence, stability, compare, sweep };
 enum class AxisScale { linear, log };
-constexpr auto words(StudyKind) { return std::array<std::string_view, 4>{"convergence", "stability", "compare", "sweep"}; }
+constexpr auto words(StudyKind) {
+  return std::array<std::string_view, 4>{"convergence", "stability", "compare", "sweep"};
+}
 constexpr auto words(AxisScale) { return std::array<std::string_view, 2>{"linear", "log"}; }
 
 /// One key of a scene and its value as TOML text, with the place in the study file that says it ("file:line:column").
@@ -30,7 +32,7 @@ struct StudyAxis {
 
 struct StudyCase {
   std::string name;
-  std::filesystem::path scene;                     // empty: the study's
+  std::filesystem::path scene;  // empty: the study's
   std::vector<StudySetting> settings;
 };
 
@@ -42,19 +44,19 @@ struct ReferencePoint {
 
 struct ReportSpec {
   std::string title, text;
-  std::string x;                                   // a key of summary.json, a quantity of the study, or a varied key
+  std::string x;  // a key of summary.json, a quantity of the study, or a varied key
   std::vector<std::string> y;
-  std::vector<std::string> lines;                  // varied keys: one curve for each combination of their values
-  std::string panels;                              // varied key: a plot for each of its values
-  std::string rate_over;                           // varied key: rates between neighbours along it
-  std::string baseline;                            // case that the others are compared with
-  double max_wall_s = 0;                           // [s] 0: no limit
-  double energy_tolerance = 1e-6;                  // [-] of the initial energy
-  double checkerboard_max = 0;                     // [-] 0: not judged
+  std::vector<std::string> lines;  // varied keys: one curve for each combination of their values
+  std::string panels;              // varied key: a plot for each of its values
+  std::string rate_over;           // varied key: rates between neighbours along it
+  std::string baseline;            // case that the others are compared with
+  double max_wall_s = 0;           // [s] 0: no limit
+  double energy_tolerance = 1e-6;  // [-] of the initial energy
+  double checkerboard_max = 0;     // [-] 0: not judged
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
   std::vector<ReferencePoint> reference;
-  std::map<std::string, std::string> where;        // of every quantity that x and y name
-  std::string reference_note;                      // where they were measured
+  std::map<std::string, std::string> where;  // of every quantity that x and y name
+  std::string reference_note;                // where they were measured
 };
 
 struct Study {
@@ -71,13 +73,14 @@ struct Study {
 
 /// What a study makes of a run, beside the numbers of its summary: mesh size (6 volume / tets)^(1/3) [m], the edge of a cell of six tets; wall seconds of the
 /// whole process; and the extremes over the history that the verdict is taken from.
-inline constexpr std::array<const char*, 5> study_quantities{"h", "process_s", "energy_excess", "least_detF", "least_tet_ratio"};
+inline constexpr std::array<const char*, 5> study_quantities{"h", "process_s", "energy_excess", "least_detF",
+                                                             "least_tet_ratio"};
 
 struct PlannedRun {
-  std::string label;                               // "mesh.cells = [6, 6, 6], physics.formulation = pF"
+  std::string label;  // "mesh.cells = [6, 6, 6], physics.formulation = pF"
   std::filesystem::path scene;
-  std::vector<StudySetting> settings;              // [set], then the case's, then the varied ones
-  std::map<std::string, std::string> varied;       // key (or "case") to value, for grouping
+  std::vector<StudySetting> settings;         // [set], then the case's, then the varied ones
+  std::map<std::string, std::string> varied;  // key (or "case") to value, for grouping
 };
 
 /// Every case with every combination of the varied values; the first varied key changes slowest.

@@ -7,7 +7,8 @@
 namespace nanson {
 
 int StudyResults::done() const {
-  return static_cast<int>(std::count_if(results.begin(), results.end(), [](const StudyRunResult& r) { return r.made; }));
+  return static_cast<int>(
+      std::count_if(results.begin(), results.end(), [](const StudyRunResult& r) { return r.made; }));
 }
 
 StudyRunResult assess(const StudyRun& run, RunOutcome outcome) {
@@ -16,7 +17,8 @@ StudyRunResult assess(const StudyRun& run, RunOutcome outcome) {
   r.judgement = judge(outcome, run.rules);
   if (outcome.summary) r.quantities = outcome.summary->numbers;
   auto& q = r.quantities;
-  if (const auto volume = quantity(r, "volume"), tets = quantity(r, "tets"); volume && tets && *tets > 0) q["h"] = std::cbrt(6 * *volume / *tets);
+  if (const auto volume = quantity(r, "volume"), tets = quantity(r, "tets"); volume && tets && *tets > 0)
+    q["h"] = std::cbrt(6 * *volume / *tets);
   q["process_s"] = outcome.wall_s;
   if (r.judgement.energy_excess) q["energy_excess"] = *r.judgement.energy_excess;
   if (std::isfinite(r.judgement.min_detF)) q["least_detF"] = r.judgement.min_detF;
@@ -39,7 +41,8 @@ void find_rates(StudyResults& all) {
     const StudyRunResult &coarse = all.results[static_cast<std::size_t>(before[i])], &fine = all.results[i];
     if (!coarse.ended() || !fine.ended()) continue;
     for (const std::string& y : report.y) {
-      const auto h0 = quantity(coarse, over), e0 = quantity(coarse, y), h1 = quantity(fine, over), e1 = quantity(fine, y);
+      const auto h0 = quantity(coarse, over), e0 = quantity(coarse, y), h1 = quantity(fine, over),
+                 e1 = quantity(fine, y);
       if (!h0 || !e0 || !h1 || !e1) continue;
       if (const auto rate = observed_rate(*h0, *e0, *h1, *e1)) all.results[i].rates[y] = *rate;
     }

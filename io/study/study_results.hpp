@@ -11,25 +11,29 @@
 namespace nanson {
 
 struct StudyRunResult {
-  bool made = false;                               // false: not reached yet
-  bool reused = false;                             // by a resumed study
+  bool made = false;    // false: not reached yet
+  bool reused = false;  // by a resumed study
   RunOutcome outcome;
   Judgement judgement;
-  std::map<std::string, double> quantities;        // numbers of the summary, of the study (study_quantities), and of varied keys
-  std::map<std::string, double> rates;             // of report.y, against the predecessor along report.rate_over
+  std::map<std::string, double>
+      quantities;                       // numbers of the summary, of the study (study_quantities), and of varied keys
+  std::map<std::string, double> rates;  // of report.y, against the predecessor along report.rate_over
 
   /// It came to its end, so that its errors mean something.
-  bool ended() const { return made && outcome.summary && outcome.summary->texts.contains("status") && outcome.summary->texts.at("status") == "done"; }
+  bool ended() const {
+    return made && outcome.summary && outcome.summary->texts.contains("status")
+           && outcome.summary->texts.at("status") == "done";
+  }
 };
 
 struct StudyResults {
   const Study* study = nullptr;
   std::vector<StudyRun> runs;
-  std::vector<StudyRunResult> results;             // one a run
+  std::vector<StudyRunResult> results;  // one a run
   std::filesystem::path folder;
   Provenance from;
-  std::string machine;                             // processor as the system names it, and its number of cores
-  std::string command;                             // that makes all of this
+  std::string machine;  // processor as the system names it, and its number of cores
+  std::string command;  // that makes all of this
   int done() const;
 };
 

@@ -11,8 +11,8 @@
 #include "engine/initial.hpp"
 #include "io/mesh/read_mesh.hpp"
 #include "io/scene/read_scene.hpp"
-#include "io/text_file.hpp"
 #include "io/scene/words.hpp"
+#include "io/text_file.hpp"
 
 namespace nanson {
 namespace {
@@ -25,15 +25,17 @@ struct MeshCache {
 };
 
 std::string mesh_key(const MeshSpec& m) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", word(m.source), fmt::join(m.origin, " "), fmt::join(m.size, " "), fmt::join(m.cells, " "), word(m.split),
-                     m.perturb, m.radius, m.length, word(m.sector), m.inner, m.outer, m.angle, m.file.name, word(m.regions.axis),
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", word(m.source), fmt::join(m.origin, " "),
+                     fmt::join(m.size, " "), fmt::join(m.cells, " "), word(m.split), m.perturb, m.radius, m.length,
+                     word(m.sector), m.inner, m.outer, m.angle, m.file.name, word(m.regions.axis),
                      fmt::join(m.regions.at, " "), fmt::join(m.regions.names, " "));
 }
 
 const Mesh& mesh_of(MeshCache& cache, const Scene& scene) {
   std::string key = mesh_key(scene.mesh);
   if (cache.key == key) return cache.mesh;
-  cache.key = std::move(key), cache.errors.clear();
+  cache.key = std::move(key);
+  cache.errors.clear();
   cache.mesh = load_mesh(scene.mesh, cache.errors);
   return cache.mesh;
 }
@@ -48,9 +50,12 @@ std::string placed(const std::string& error, const PlannedRun& run) {
 }
 
 bool does_work(const Scene& s) {
-  const auto works = [](const BoundarySpec& b) { return b.kind == BoundaryKind::traction || b.kind == BoundaryKind::pressure || b.kind == BoundaryKind::velocity; };
-  return std::any_of(s.boundary.begin(), s.boundary.end(), works) || std::any_of(s.body_force.begin(), s.body_force.end(), [](double g) { return g != 0; }) ||
-         s.initial.field == InitialField::manufactured;
+  const auto works = [](const BoundarySpec& b) {
+    return b.kind == BoundaryKind::traction || b.kind == BoundaryKind::pressure || b.kind == BoundaryKind::velocity;
+  };
+  return std::any_of(s.boundary.begin(), s.boundary.end(), works)
+         || std::any_of(s.body_force.begin(), s.body_force.end(), [](double g) { return g != 0; })
+         || s.initial.field == InitialField::manufactured;
 }
 
 /// Files by name, then lines and columns as numbers.
@@ -62,10 +67,12 @@ bool stands_before(const std::string& a, const std::string& b) {
       char *end_a = nullptr, *end_b = nullptr;
       const unsigned long long x = std::strtoull(&a[i], &end_a, 10), y = std::strtoull(&b[j], &end_b, 10);
       if (x != y) return x < y;
-      i = static_cast<std::size_t>(end_a - a.data()), j = static_cast<std::size_t>(end_b - b.data());
+      i = static_cast<std::size_t>(end_a - a.data());
+      j = static_cast<std::size_t>(end_b - b.data());
     } else {
       if (a[i] != b[j]) return a[i] < b[j];
-      ++i, ++j;
+      ++i;
+      ++j;
     }
   }
   return a.size() - i < b.size() - j;
@@ -74,7 +81,8 @@ bool stands_before(const std::string& a, const std::string& b) {
 /// Why this scene's summary will not have the quantity; empty when it will, or may.
 std::string missing_quantity(const Scene& s, const std::string& name) {
   if (name.starts_with("errors.") && !has_exact_solution(s)) return "no exact solution of this scene is known";
-  if (name.starts_with("projection.") && s.physics.formulation != Formulation::pFp) return "needs physics.formulation = \"pFp\"";
+  if (name.starts_with("projection.") && s.physics.formulation != Formulation::pFp)
+    return "needs physics.formulation = \"pFp\"";
   for (const char* audited : {"energy.external_work", "energy.dissipated", "energy.closure"})
     if (name == audited && !s.monitor.energy) return "needs monitor.energy = true";
   if (name == "least_tet_ratio" && !s.monitor.geometry) return "needs monitor.geometry = true";
@@ -82,7 +90,8 @@ std::string missing_quantity(const Scene& s, const std::string& name) {
   std::vector<std::string> known;
   for (const ProbeSpec& p : s.output.probes)
     for (const std::string& field : p.fields) {
-      const auto at = std::find_if(field_names.begin(), field_names.end(), [&](const FieldName& f) { return f.name == field; });
+      const auto at = std::find_if(field_names.begin(), field_names.end(),
+                                   [&](const FieldName& f) { return f.name == field; });
       for (int k = 0; k < at->components; ++k) known.push_back(fmt::format("probes.{}.{}.{}", p.name, field, k));
     }
   return std::find(known.begin(), known.end(), name) != known.end() ? "" : unknown_word("probe value", name, known);
@@ -94,7 +103,9 @@ std::vector<StudyRun> prepare(const Study& study, std::vector<std::string>& erro
   std::vector<StudyRun> runs;
   std::set<std::string> said;
   MeshCache cache;
-  const auto say = [&](const std::string& error) { if (said.insert(error).second) errors.push_back(error); };
+  const auto say = [&](const std::string& error) {
+    if (said.insert(error).second) errors.push_back(error);
+  };
   for (PlannedRun& planned : plan(study)) {
     StudyRun run;
     std::vector<std::string> settings;
@@ -110,13 +121,17 @@ std::vector<StudyRun> prepare(const Study& study, std::vector<std::string>& erro
     }
     if (read.errors.empty())
       for (const auto& [name, where] : study.report.where)
-        if (const std::string why = missing_quantity(read.scene, name); !why.empty()) say(fmt::format("{} = \"{}\": {} ({})", where, name, why, planned.scene.string()));
+        if (const std::string why = missing_quantity(read.scene, name); !why.empty())
+          say(fmt::format("{} = \"{}\": {} ({})", where, name, why, planned.scene.string()));
     std::string why;
-    const std::string mesh_text = read.scene.mesh.source == MeshSource::file ? read_text_file(read.scene.mesh.file.name, why).value_or("") : "";
+    const std::string mesh_text = read.scene.mesh.source == MeshSource::file
+                                      ? read_text_file(read.scene.mesh.file.name, why).value_or("")
+                                      : "";
     run.hash = text_hash(fmt::format("{}\n{}\nthreads = {}", read.resolved, mesh_text, study.threads));
     run.arguments = {"run", planned.scene.string(), "--threads", std::to_string(study.threads)};
     for (const std::string& s : settings) run.arguments.insert(run.arguments.end(), {"--set", s});
-    run.rules = {study.report.energy_tolerance, study.report.checkerboard_max, study.report.max_wall_s, does_work(read.scene)};
+    run.rules = {study.report.energy_tolerance, study.report.checkerboard_max, study.report.max_wall_s,
+                 does_work(read.scene)};
     run.plan = std::move(planned);
     runs.push_back(std::move(run));
   }

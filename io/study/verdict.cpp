@@ -11,13 +11,14 @@ namespace nanson {
 namespace {
 
 struct Growth {
-  double largest = 0, first_t = -1, scale = 0;     // [-], [s] of the first row beyond the tolerance, [J]
+  double largest = 0, first_t = -1, scale = 0;  // [-], [s] of the first row beyond the tolerance, [J]
 };
 
 /// Nothing when the history cannot say: no rows, or work that was not recorded.
 std::optional<Growth> growth(const RunHistory& h, const VerdictRules& rules) {
   const bool knows_work = h.external_work.size() == h.t.size();
-  if (h.t.empty() || h.kinetic.size() != h.t.size() || h.strain.size() != h.t.size() || (rules.works && !knows_work)) return std::nullopt;
+  if (h.t.empty() || h.kinetic.size() != h.t.size() || h.strain.size() != h.t.size() || (rules.works && !knows_work))
+    return std::nullopt;
   const double start = h.kinetic[0] + h.strain[0];
   Growth g;
   g.scale = start;
@@ -27,7 +28,7 @@ std::optional<Growth> growth(const RunHistory& h, const VerdictRules& rules) {
     g.scale = std::max(g.scale, std::abs(given));
     if (!(g.scale > 0)) continue;
     const double excess = (h.kinetic[i] + h.strain[i] - start - given) / g.scale;
-    if (!(excess <= g.largest)) g.largest = excess;   // takes NaN too
+    if (!(excess <= g.largest)) g.largest = excess;  // takes NaN too
     if (!(excess <= rules.energy_tolerance) && g.first_t < 0) g.first_t = h.t[i];
   }
   return g;
@@ -58,16 +59,24 @@ Verdict verdict_of_cause(const std::string& cause) {
 /// What the run violated, although it went on; empty when nothing.
 void judge_course(Judgement& j, const RunOutcome& run, const std::optional<Growth>& g, const VerdictRules& rules) {
   const auto found = [&](Verdict v, std::string reason) {
-    if (j.verdict == Verdict::sound) j.verdict = v, j.reason = std::move(reason);
+    if (j.verdict == Verdict::sound) {
+      j.verdict = v;
+      j.reason = std::move(reason);
+    }
   };
   if (g && g->first_t >= 0)
-    found(Verdict::energy_grew, fmt::format("more than the initial energy and external work from t = {:.4g} s on, by {:.3g} of them at most (allowed {:g})", g->first_t, g->largest, rules.energy_tolerance));
+    found(Verdict::energy_grew, fmt::format("more than the initial energy and external work from t = {:.4g} s on, by "
+                                            "{:.3g} of them at most (allowed {:g})",
+                                            g->first_t, g->largest, rules.energy_tolerance));
   if (j.min_detF <= 0) found(Verdict::inverted, fmt::format("det F fell to {:.3g}", j.min_detF));
   if (const double J = least(run.history.min_J); J <= 0) found(Verdict::inverted, fmt::format("J fell to {:.3g}", J));
-  if (j.min_tet_ratio <= 0) found(Verdict::inverted, fmt::format("a tet was turned inside out: its volume fell to {:.3g} of the undeformed one", j.min_tet_ratio));
+  if (j.min_tet_ratio <= 0)
+    found(Verdict::inverted,
+          fmt::format("a tet was turned inside out: its volume fell to {:.3g} of the undeformed one", j.min_tet_ratio));
   const auto chi = run.summary->numbers.find("checkerboard");
   if (rules.checkerboard_max > 0 && chi != run.summary->numbers.end() && !(chi->second <= rules.checkerboard_max))
-    found(Verdict::checkerboard, fmt::format("the pressure's checkerboard measure is {:.3g} at the end (allowed {:g})", chi->second, rules.checkerboard_max));
+    found(Verdict::checkerboard, fmt::format("the pressure's checkerboard measure is {:.3g} at the end (allowed {:g})",
+                                             chi->second, rules.checkerboard_max));
 }
 
 }  // namespace
@@ -76,7 +85,8 @@ Judgement judge(const RunOutcome& run, const VerdictRules& rules) {
   Judgement j;
   const std::optional<Growth> g = growth(run.history, rules);
   if (g) j.energy_excess = g->largest;
-  j.min_detF = least(run.history.min_detF), j.min_tet_ratio = least(run.history.min_tet_ratio);
+  j.min_detF = least(run.history.min_detF);
+  j.min_tet_ratio = least(run.history.min_tet_ratio);
   if (run.too_slow) {
     j.verdict = Verdict::too_slow;
     j.reason = fmt::format("took longer than report.max_wall_s = {:g} s", rules.max_wall_s);
@@ -84,17 +94,25 @@ Judgement judge(const RunOutcome& run, const VerdictRules& rules) {
   }
   if (!run.summary) {
     j.verdict = Verdict::failed;
-    const std::string how = run.exit_code > 128 ? fmt::format("was ended by signal {}", run.exit_code - 128) : fmt::format("ended with exit code {}", run.exit_code);
-    j.reason = fmt::format("the program {} without a summary{}{}", how, run.last_words.empty() ? "" : ": ", run.last_words);
+    const std::string how = run.exit_code > 128 ? fmt::format("was ended by signal {}", run.exit_code - 128)
+                                                : fmt::format("ended with exit code {}", run.exit_code);
+    j.reason = fmt::format("the program {} without a summary{}{}", how, run.last_words.empty() ? "" : ": ",
+                           run.last_words);
     return j;
   }
   const std::string status = text_of(*run.summary, "status"), why = text_of(*run.summary, "reason");
   if (status != "done") {
-    j.verdict = status == "breakdown" || !text_of(*run.summary, "cause").empty() ? verdict_of_cause(text_of(*run.summary, "cause")) : Verdict::failed;
+    j.verdict = status == "breakdown" || !text_of(*run.summary, "cause").empty()
+                    ? verdict_of_cause(text_of(*run.summary, "cause"))
+                    : Verdict::failed;
     j.reason = why;
     // a run that blew up ends in det F or NaN: that its energy had grown before says more
-    if (status == "breakdown" && g && g->first_t >= 0 && g->first_t < run.history.t.back() && j.verdict != Verdict::iteration_limit)
-      j.reason = fmt::format("more than the initial energy and external work from t = {:.4g} s on; then {}", g->first_t, why), j.verdict = Verdict::energy_grew;
+    if (status == "breakdown" && g && g->first_t >= 0 && g->first_t < run.history.t.back()
+        && j.verdict != Verdict::iteration_limit) {
+      j.reason = fmt::format("more than the initial energy and external work from t = {:.4g} s on; then {}", g->first_t,
+                             why);
+      j.verdict = Verdict::energy_grew;
+    }
     return j;
   }
   judge_course(j, run, g, rules);

@@ -26,11 +26,14 @@ std::vector<std::string> quantity_columns(const StudyResults& all) {
   std::vector<std::string> columns;
   const auto add = [&](const std::string& name) {
     const bool varied = std::find(keys.begin(), keys.end(), name) != keys.end();
-    if (!name.empty() && !varied && std::find(columns.begin(), columns.end(), name) == columns.end()) columns.push_back(name);
+    if (!name.empty() && !varied && std::find(columns.begin(), columns.end(), name) == columns.end())
+      columns.push_back(name);
   };
   for (const std::string& y : all.study->report.y) add(y);
   add(all.study->report.x);
-  for (const char* name : {"h", "nodes", "tets", "steps", "cpu_s", "wall_s", "process_s", "ns_per_node_step", "bytes_per_node", "energy_excess", "least_detF", "least_tet_ratio", "checkerboard"}) add(name);
+  for (const char* name : {"h", "nodes", "tets", "steps", "cpu_s", "wall_s", "process_s", "ns_per_node_step",
+                           "bytes_per_node", "energy_excess", "least_detF", "least_tet_ratio", "checkerboard"})
+    add(name);
   return columns;
 }
 
@@ -52,14 +55,19 @@ std::string study_csv(const StudyResults& all) {
     csv += fmt::format(",{},{}", word(r.judgement.verdict), csv_text(r.judgement.reason));
     for (const std::string& name : columns) csv += fmt::format(",{}", number_text(quantity(r, name)));
     if (rates)
-      for (const std::string& y : all.study->report.y) csv += r.rates.contains(y) ? fmt::format(",{:.4f}", r.rates.at(y)) : ",";
-    csv += fmt::format(",{},{},{},runs/{}\n", all.study->threads, csv_text(text_of(r, "provenance.host")), csv_text(text_of(r, "provenance.commit")), all.runs[i].hash);
+      for (const std::string& y : all.study->report.y)
+        csv += r.rates.contains(y) ? fmt::format(",{:.4f}", r.rates.at(y)) : ",";
+    csv += fmt::format(",{},{},{},runs/{}\n", all.study->threads, csv_text(text_of(r, "provenance.host")),
+                       csv_text(text_of(r, "provenance.commit")), all.runs[i].hash);
   }
   return csv;
 }
 
 std::string shell_quoted(const std::string& word) {
-  const auto plain = [](char c) { return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_-./=,+:@%").find(c) != std::string_view::npos; };
+  const auto plain = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c))
+           || std::string_view("_-./=,+:@%").find(c) != std::string_view::npos;
+  };
   if (!word.empty() && std::all_of(word.begin(), word.end(), plain)) return word;
   std::string quoted = "'";
   for (const char c : word) quoted += c == '\'' ? "'\\''" : std::string(1, c);

@@ -9,10 +9,10 @@ namespace nanson {
 
 /// A plot: its gnuplot script, and the SVG once gnuplot has made it.
 struct StudyPlot {
-  std::string name;                                // of the file and of its place in the page: "plot-1"
+  std::string name;  // of the file and of its place in the page: "plot-1"
   std::string title, caption;
   std::string script;
-  std::string svg;                                 // empty: not made
+  std::string svg;  // empty: not made
 };
 
 /// One row a run: varied keys, verdict, quantities, rates, cost, where it was made.

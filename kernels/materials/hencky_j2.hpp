@@ -8,17 +8,19 @@ namespace nanson {
 /// State of a node: inverse plastic right Cauchy-Green tensor and equivalent plastic strain.
 template <class Real>
 struct PlasticState {
-  Symmetric<Real> C_p_inv;         // [-] det 1
-  Real eps_p;                      // [-]
+  Symmetric<Real> C_p_inv;  // [-] det 1
+  Real eps_p;               // [-]
 };
 
 /// The stress after the return to the yield surface.
 template <class Real>
 struct ReturnMapping {
-  Symmetric<Real> ln_b_e;          // [-] deviator of ln b_e, b_e = F C_p^-1 F^T; the deviatoric Kirchhoff stress is tau = mu ln_b_e
-  Real q;                          // [Pa] sqrt(3/2) |tau|
-  Real d_gamma;                    // [-] growth of eps_p, >= 0
-  Real plastic_work;               // [J/m^3] tau_y d eps_p, mean of tau_y before and after: exact along a straight piece of the hardening curve
+  Symmetric<Real>
+      ln_b_e;    // [-] deviator of ln b_e, b_e = F C_p^-1 F^T; the deviatoric Kirchhoff stress is tau = mu ln_b_e
+  Real q;        // [Pa] sqrt(3/2) |tau|
+  Real d_gamma;  // [-] growth of eps_p, >= 0
+  Real
+      plastic_work;  // [J/m^3] tau_y d eps_p, mean of tau_y before and after: exact along a straight piece of the hardening curve
 };
 
 /// Trial tau = mu dev ln b_e, b_e = F C_p^-1 F^T, q = sqrt(3/2) |tau|, f = q - tau_y(eps_p); where f > 0 the d_gamma with q - 3 mu d_gamma = tau_y(eps_p + d_gamma),
@@ -30,7 +32,8 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
   NANSON_INLINE static Symmetric<Real> elastic_strain(const Tensor<Real>& F, const Symmetric<Real>& C_p_inv) {
     Tensor<Real> FC;
     for (int i = 0; i < 3; ++i)
-      for (int I = 0; I < 3; ++I) FC[i][I] = fma(F[i][0], C_p_inv(0, I), fma(F[i][1], C_p_inv(1, I), F[i][2] * C_p_inv(2, I)));
+      for (int I = 0; I < 3; ++I)
+        FC[i][I] = fma(F[i][0], C_p_inv(0, I), fma(F[i][1], C_p_inv(1, I), F[i][2] * C_p_inv(2, I)));
     Symmetric<Real> b;
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) b(i, j) = fma(FC[i][0], F[j][0], fma(FC[i][1], F[j][1], FC[i][2] * F[j][2]));
@@ -39,7 +42,8 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
 
   /// The piece of the hardening curve that the return ends on is the last one whose start the trial still exceeds: q - 3 mu (e - eps_p) falls, tau_y(e) does not.
   template <class Real>
-  NANSON_INLINE static ReturnMapping<Real> return_mapping(const Tensor<Real>& F, const PlasticState<Real>& z, const MaterialConstants& m) {
+  NANSON_INLINE static ReturnMapping<Real> return_mapping(const Tensor<Real>& F, const PlasticState<Real>& z,
+                                                          const MaterialConstants& m) {
     ReturnMapping<Real> r;
     r.ln_b_e = deviatoric_logarithm(elastic_strain(F, z.C_p_inv));
     const Real q = m.mu * root(1.5 * square_norm(r.ln_b_e));
@@ -48,8 +52,13 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
     for (int i = 0; i < h.count; ++i) {
       const Real beyond = z.eps_p - h.eps_p[i], excess = q - h.tau_y[i];
       const Real g_i = (excess - h.slope[i] * beyond) * (1.0 / (3.0 * m.mu + h.slope[i]));
-      if (i == 0) g = g_i, tau_y = h.tau_y[0] + h.slope[0] * beyond;
-      else g = choose(excess + 3.0 * m.mu * beyond > 0.0, g_i, g), tau_y = choose(beyond > 0.0, h.tau_y[i] + h.slope[i] * beyond, tau_y);
+      if (i == 0) {
+        g = g_i;
+        tau_y = h.tau_y[0] + h.slope[0] * beyond;
+      } else {
+        g = choose(excess + 3.0 * m.mu * beyond > 0.0, g_i, g);
+        tau_y = choose(beyond > 0.0, h.tau_y[i] + h.slope[i] * beyond, tau_y);
+      }
     }
     r.d_gamma = choose(g > 0.0, g, Real{});
     const Real per_q = r.d_gamma / (q + 1e-300);
@@ -60,7 +69,8 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
   }
 
   template <class Real>
-  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const ReturnMapping<Real>& r, const MaterialConstants& m) {
+  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J,
+                                           const ReturnMapping<Real>& r, const MaterialConstants& m) {
     Stress<Real> s;
     const Tensor<Real> cof = cofactor(F);
     s.detF = determinant(F, cof);
@@ -94,7 +104,8 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
 
   /// C_p^-1 = F^-1 b_e F^-T of the returned b_e, a multiple of exp(ln_b_e), with det 1, and eps_p; where nothing flowed the state is left as it is, to the bit.
   template <class Real>
-  NANSON_INLINE static PlasticState<Real> flowed(const Tensor<Real>& F, const PlasticState<Real>& z, const ReturnMapping<Real>& r) {
+  NANSON_INLINE static PlasticState<Real> flowed(const Tensor<Real>& F, const PlasticState<Real>& z,
+                                                 const ReturnMapping<Real>& r) {
     const Tensor<Real> cof = cofactor(F);
     const Real inverse_det = 1.0 / determinant(F, cof);
     Tensor<Real> F_inv;
@@ -109,9 +120,11 @@ struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
   }
 
   template <class Real>
-  NANSON_INLINE static Real energy(const Tensor<Real>& F, std::type_identity_t<Real> evolved_J, const PlasticState<Real>& z, const MaterialConstants& m) {
+  NANSON_INLINE static Real energy(const Tensor<Real>& F, std::type_identity_t<Real> evolved_J,
+                                   const PlasticState<Real>& z, const MaterialConstants& m) {
     const Real ln_J = logarithm(formulation == Formulation::pF ? determinant(F, cofactor(F)) : evolved_J);
-    return 0.25 * m.mu * square_norm(deviatoric_logarithm(elastic_strain(F, z.C_p_inv))) + 0.5 * m.kappa * (ln_J * ln_J);
+    return 0.25 * m.mu * square_norm(deviatoric_logarithm(elastic_strain(F, z.C_p_inv)))
+           + 0.5 * m.kappa * (ln_J * ln_J);
   }
 };
 

@@ -9,7 +9,8 @@ namespace nanson {
 template <Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 struct Material<Law::linear_elastic, volumetric, isochoric, formulation> {
   template <class Real>
-  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>&, Real J, const MaterialConstants& m) {
+  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>&, Real J,
+                                           const MaterialConstants& m) {
     Stress<Real> s;
     const Tensor<Real> cof = cofactor(F);
     s.detF = determinant(F, cof);

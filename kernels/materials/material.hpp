@@ -10,31 +10,32 @@ inline constexpr int hardening_points = 16;  // the most that a hardening curve 
 /// Isotropic hardening: tau_y = tau_y[i] + slope[i] (eps_p - eps_p[i]) from eps_p[i] to the next point, and on beyond the last.
 struct Hardening {
   int count = 0;
-  double eps_p[hardening_points] = {};   // [-] growing, from 0
-  double tau_y[hardening_points] = {};   // [Pa]
-  double slope[hardening_points] = {};   // [Pa] >= 0
+  double eps_p[hardening_points] = {};  // [-] growing, from 0
+  double tau_y[hardening_points] = {};  // [Pa]
+  double slope[hardening_points] = {};  // [Pa] >= 0
 };
 
 /// Constants of a material. mu = E/(2(1+nu)), kappa = E/(3(1-2nu)); 2 zeta + 3 sqrt(3) xi = mu.
 struct MaterialConstants {
-  double rho = 0;                  // [kg/m^3] undeformed density
-  double mu = 0, kappa = 0;        // [Pa] shear and bulk modulus
-  double zeta = 0, xi = 0;         // [Pa] of the isochoric energy (paper, eq. 14)
-  double cp = 0, cs = 0;           // [m/s] undeformed wave speeds (paper, eq. 39)
-  double parting = 0;              // [Pa] M of the energy of the parting of det F from J, 0 without
-  Hardening hardening;             // hencky_j2
+  double rho = 0;            // [kg/m^3] undeformed density
+  double mu = 0, kappa = 0;  // [Pa] shear and bulk modulus
+  double zeta = 0, xi = 0;   // [Pa] of the isochoric energy (paper, eq. 14)
+  double cp = 0, cs = 0;     // [m/s] undeformed wave speeds (paper, eq. 39)
+  double parting = 0;        // [Pa] M of the energy of the parting of det F from J, 0 without
+  Hardening hardening;       // hencky_j2
 };
 
 /// Stress of one node (or of eight as lanes).
 template <class Real>
 struct Stress {
-  Tensor<Real> P;                  // [Pa] first Piola-Kirchhoff stress
-  Tensor<Real> H;                  // [-] the area map that fluxes and dJ/dt use
-  Real Sigma_J;                    // [Pa] conjugate of J, whose jump stabilises it
-  Real detF;                      // [-]
-  Real rho_c2;                     // [Pa] bound of rho0 c^2 over all directions, c the fastest reference-frame speed of the acoustic tensor
-  Real d2U;                        // [Pa] U''(J); with an energy of the parting d(Sigma_J)/dJ of both
-  Real H2;                         // [-] bound of the squared spectral norm of H
+  Tensor<Real> P;  // [Pa] first Piola-Kirchhoff stress
+  Tensor<Real> H;  // [-] the area map that fluxes and dJ/dt use
+  Real Sigma_J;    // [Pa] conjugate of J, whose jump stabilises it
+  Real detF;       // [-]
+  Real
+      rho_c2;  // [Pa] bound of rho0 c^2 over all directions, c the fastest reference-frame speed of the acoustic tensor
+  Real d2U;    // [Pa] U''(J); with an energy of the parting d(Sigma_J)/dJ of both
+  Real H2;     // [-] bound of the squared spectral norm of H
 };
 
 /// Largest eigenvalue of a symmetric positive 3x3 tensor is at most m + sqrt(2) s, m and s mean and deviation of its eigenvalues (exact for equal stretches).

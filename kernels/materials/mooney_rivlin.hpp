@@ -13,7 +13,8 @@ struct PolyconvexMaterial {
   using U = VolumetricEnergy<volumetric>;
 
   template <class Real>
-  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const MaterialConstants& m) {
+  NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J,
+                                           const MaterialConstants& m) {
     Stress<Real> s;
     const Tensor<Real> cof = cofactor(F);
     s.detF = determinant(F, cof);
@@ -34,14 +35,16 @@ struct PolyconvexMaterial {
     const Real p = U::dU(J, m.kappa);
     s.Sigma_J = isochoric == Isochoric::J ? dpsi_dj + p : p;
     for (int k = 0; k < 9; ++k) {
-      const Real by_cof = isochoric == Isochoric::J ? s.Sigma_J * s.H.a[k / 3][k % 3] : fma(dpsi_dj, cof.a[k / 3][k % 3], p * s.H.a[k / 3][k % 3]);
+      const Real by_cof = isochoric == Isochoric::J ? s.Sigma_J * s.H.a[k / 3][k % 3]
+                                                    : fma(dpsi_dj, cof.a[k / 3][k % 3], p * s.H.a[k / 3][k % 3]);
       s.P.a[k / 3][k % 3] = s.P.a[k / 3][k % 3] + by_cof;
     }
     const Real HH = contract(cof, cof);
     const SpectralBounds<Real> norms = spectral_bounds(FF, HH, s.detF);
     s.H2 = norms.H2;
     s.d2U = U::d2U(J, m.kappa);
-    s.rho_c2 = speed_bound(FF, HH, norms, s.detF, isochoric == Isochoric::J ? inverse_cube_root(s.detF) : j_third, s.d2U, m);
+    s.rho_c2 = speed_bound(FF, HH, norms, s.detF, isochoric == Isochoric::J ? inverse_cube_root(s.detF) : j_third,
+                           s.d2U, m);
     return s;
   }
 
@@ -51,17 +54,20 @@ struct PolyconvexMaterial {
   /// xi part: with r = |H|, psi = xi r^3/j^2 has the second variation 3 xi r/j^2 [2 (r' - r j'/j)^2 + |K|^2 - r'^2] along w (x) N, K = F x (w (x) N),
   /// where |r' - r j'/j| <= |cof F|^3/(r j) and |K|^2 <= 2 |F|^2.
   template <class Real>
-  NANSON_INLINE static Real speed_bound(Real FF, Real HH, const SpectralBounds<Real>& n, Real j, Real j_third, Real d2U, const MaterialConstants& m) {
+  NANSON_INLINE static Real speed_bound(Real FF, Real HH, const SpectralBounds<Real>& n, Real j, Real j_third, Real d2U,
+                                        const MaterialConstants& m) {
     const Real t2 = j_third * j_third, mt = 2.0 * m.zeta * t2, j_inv = t2 * j_third;
     const Real A = (5.0 / 9.0) * mt * FF * (j_inv * j_inv) + d2U, B = (2.0 / 3.0) * mt * j_inv;
     const Real a = A * n.H2 - 2.0 * B * j, f2h2 = n.F2 * n.H2 - j * j, b2 = B * B * larger(f2h2, f2h2 - f2h2);
     Real q = mt + 0.5 * (a + root(a * a + 4.0 * b2));
-    if constexpr (with_xi) q = q + 6.0 * m.xi * root(HH) * (j_inv * j_inv) * (n.H2 * n.H2 * n.H2 / (HH * (j * j)) + n.F2);
+    if constexpr (with_xi)
+      q = q + 6.0 * m.xi * root(HH) * (j_inv * j_inv) * (n.H2 * n.H2 * n.H2 / (HH * (j * j)) + n.F2);
     return q;
   }
 
   template <class Real>
-  NANSON_INLINE static Real energy(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J, const MaterialConstants& m) {
+  NANSON_INLINE static Real energy(const Tensor<Real>& F, const Tensor<Real>& evolved_H, Real evolved_J,
+                                   const MaterialConstants& m) {
     const Tensor<Real> cof = cofactor(F), H = formulation == Formulation::pFHJ ? evolved_H : cof;
     const Real detF = determinant(F, cof), J = formulation == Formulation::pF ? detF : evolved_J;
     const Real j = isochoric == Isochoric::J ? J : detF, j_third = inverse_cube_root(j);
@@ -75,6 +81,7 @@ struct PolyconvexMaterial {
 };
 
 template <Volumetric volumetric, Isochoric isochoric, Formulation formulation>
-struct Material<Law::mooney_rivlin, volumetric, isochoric, formulation> : PolyconvexMaterial<true, volumetric, isochoric, formulation> {};
+struct Material<Law::mooney_rivlin, volumetric, isochoric, formulation>
+    : PolyconvexMaterial<true, volumetric, isochoric, formulation> {};
 
 }  // namespace nanson

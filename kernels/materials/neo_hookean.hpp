@@ -6,6 +6,7 @@ namespace nanson {
 
 /// psi = mu/2 (j^(-2/3) F:F - 3) + U(J) [J/m^3].
 template <Volumetric volumetric, Isochoric isochoric, Formulation formulation>
-struct Material<Law::neo_hookean, volumetric, isochoric, formulation> : PolyconvexMaterial<false, volumetric, isochoric, formulation> {};
+struct Material<Law::neo_hookean, volumetric, isochoric, formulation>
+    : PolyconvexMaterial<false, volumetric, isochoric, formulation> {};
 
 }  // namespace nanson

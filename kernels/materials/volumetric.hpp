@@ -13,22 +13,34 @@ struct VolumetricEnergy;
 template <>
 struct VolumetricEnergy<Volumetric::quadratic> {
   template <class Real>
-  NANSON_INLINE static Real U(Real J, double kappa) { return 0.5 * kappa * ((J - 1.0) * (J - 1.0)); }
+  NANSON_INLINE static Real U(Real J, double kappa) {
+    return 0.5 * kappa * ((J - 1.0) * (J - 1.0));
+  }
   template <class Real>
-  NANSON_INLINE static Real dU(Real J, double kappa) { return kappa * (J - 1.0); }
+  NANSON_INLINE static Real dU(Real J, double kappa) {
+    return kappa * (J - 1.0);
+  }
   template <class Real>
-  NANSON_INLINE static Real d2U(Real J, double kappa) { return J - J + kappa; }
+  NANSON_INLINE static Real d2U(Real J, double kappa) {
+    return J - J + kappa;
+  }
 };
 
 /// U = kappa/2 [(J^2 - 1)/2 - ln J]: infinite at J = 0.
 template <>
 struct VolumetricEnergy<Volumetric::barrier> {
   template <class Real>
-  NANSON_INLINE static Real U(Real J, double kappa) { return 0.5 * kappa * (0.5 * (J * J - 1.0) - logarithm(J)); }
+  NANSON_INLINE static Real U(Real J, double kappa) {
+    return 0.5 * kappa * (0.5 * (J * J - 1.0) - logarithm(J));
+  }
   template <class Real>
-  NANSON_INLINE static Real dU(Real J, double kappa) { return 0.5 * kappa * (J - 1.0 / J); }
+  NANSON_INLINE static Real dU(Real J, double kappa) {
+    return 0.5 * kappa * (J - 1.0 / J);
+  }
   template <class Real>
-  NANSON_INLINE static Real d2U(Real J, double kappa) { return 0.5 * kappa * (1.0 + 1.0 / (J * J)); }
+  NANSON_INLINE static Real d2U(Real J, double kappa) {
+    return 0.5 * kappa * (1.0 + 1.0 / (J * J));
+  }
 };
 
 }  // namespace nanson

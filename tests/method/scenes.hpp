@@ -43,9 +43,16 @@ inline BoundarySpec condition(std::vector<std::string> faces, BoundaryKind kind)
 inline Scene free_bar(int n, double nu = 0.3) {
   Scene s;
   s.name = "free_bar";
-  s.mesh.origin = {-0.5, -0.5, 0}, s.mesh.size = {1, 1, 2}, s.mesh.cells = {n, n + 1, 2 * n}, s.mesh.perturb = 0.2;
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = nu;
-  s.initial.field = InitialField::twist, s.initial.twist_omega = 60, s.initial.height = 2;
+  s.mesh.origin = {-0.5, -0.5, 0};
+  s.mesh.size = {1, 1, 2};
+  s.mesh.cells = {n, n + 1, 2 * n};
+  s.mesh.perturb = 0.2;
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = nu;
+  s.initial.field = InitialField::twist;
+  s.initial.twist_omega = 60;
+  s.initial.height = 2;
   s.time.end = 0.05;
   return s;
 }
@@ -54,9 +61,15 @@ inline Scene free_bar(int n, double nu = 0.3) {
 inline Scene column(int n, double nu = 0.495) {
   Scene s;
   s.name = "twisting_column";
-  s.mesh.origin = {-0.5, -0.5, 0}, s.mesh.size = {1, 1, 6}, s.mesh.cells = {n, n, 6 * n};
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = nu;
-  s.initial.field = InitialField::twist, s.initial.twist_omega = 105, s.initial.height = 6;
+  s.mesh.origin = {-0.5, -0.5, 0};
+  s.mesh.size = {1, 1, 6};
+  s.mesh.cells = {n, n, 6 * n};
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = nu;
+  s.initial.field = InitialField::twist;
+  s.initial.twist_omega = 105;
+  s.initial.height = 6;
   s.boundary = {condition({"zmin"}, BoundaryKind::fixed)};
   s.time.end = 0.1;
   return s;
@@ -66,12 +79,20 @@ inline Scene column(int n, double nu = 0.495) {
 inline Scene cube(int n, Split split = Split::kuhn) {
   Scene s;
   s.name = "low_dispersion_cube";
-  s.mesh.size = {1, 1, 1}, s.mesh.cells = {n, n, n}, s.mesh.split = split;
+  s.mesh.size = {1, 1, 1};
+  s.mesh.cells = {n, n, n};
+  s.mesh.split = split;
   s.material.law = Law::linear_elastic;
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.45;
-  s.initial.field = InitialField::standing_wave, s.initial.amplitude = 5e-4, s.initial.J = InitialJ::det;
-  s.boundary = {condition({"xmin", "ymin", "zmin"}, BoundaryKind::symmetric), condition({"xmax", "ymax", "zmax"}, BoundaryKind::skew_symmetric)};
-  s.time.end = 0.002, s.time.step = StepRule::paper;
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = 0.45;
+  s.initial.field = InitialField::standing_wave;
+  s.initial.amplitude = 5e-4;
+  s.initial.J = InitialJ::det;
+  s.boundary = {condition({"xmin", "ymin", "zmin"}, BoundaryKind::symmetric),
+                condition({"xmax", "ymax", "zmax"}, BoundaryKind::skew_symmetric)};
+  s.time.end = 0.002;
+  s.time.step = StepRule::paper;
   return s;
 }
 
@@ -79,13 +100,18 @@ inline Scene cube(int n, Split split = Split::kuhn) {
 inline Scene loaded_bar(int n) {
   Scene s = free_bar(n);
   s.name = "loaded_bar";
-  s.boundary = {condition({"zmin"}, BoundaryKind::fixed), condition({"xmin"}, BoundaryKind::symmetric), condition({"ymax"}, BoundaryKind::traction),
-                condition({"xmax"}, BoundaryKind::pressure), condition({"zmax"}, BoundaryKind::velocity)};
+  s.boundary = {condition({"zmin"}, BoundaryKind::fixed), condition({"xmin"}, BoundaryKind::symmetric),
+                condition({"ymax"}, BoundaryKind::traction), condition({"xmax"}, BoundaryKind::pressure),
+                condition({"zmax"}, BoundaryKind::velocity)};
   s.boundary[2].traction = {2e5, -1e5, 3e5};
   s.boundary[3].pressure = 4e5;
-  s.boundary[3].time.kind = TimeKind::ramp, s.boundary[3].time.until = 0.01;
-  s.boundary[4].velocity = {0, 3, -6}, s.boundary[4].held = {false, true, true};
-  s.boundary[4].time.kind = TimeKind::sine, s.boundary[4].time.frequency = 30, s.boundary[4].time.phase = 0.3;
+  s.boundary[3].time.kind = TimeKind::ramp;
+  s.boundary[3].time.until = 0.01;
+  s.boundary[4].velocity = {0, 3, -6};
+  s.boundary[4].held = {false, true, true};
+  s.boundary[4].time.kind = TimeKind::sine;
+  s.boundary[4].time.frequency = 30;
+  s.boundary[4].time.phase = 0.3;
   s.body_force = {3, -5, -9.81};
   return s;
 }
@@ -101,27 +127,39 @@ inline std::vector<PhysicsSpec> every_physics() {
     for (auto jump : {PressureJump::scalar, PressureJump::tensor}) {
       if (jump == PressureJump::tensor && formulation == Formulation::pF) continue;
       PhysicsSpec p;
-      p.formulation = formulation, p.pressure_jump = jump, p.reconstruction = Reconstruction::constant;
+      p.formulation = formulation;
+      p.pressure_jump = jump;
+      p.reconstruction = Reconstruction::constant;
       all.push_back(p);
       p.reconstruction = Reconstruction::linear;
-      for (auto correction : corrections) p.flux_correction = correction, all.push_back(p);
+      for (auto correction : corrections) {
+        p.flux_correction = correction;
+        all.push_back(p);
+      }
     }
   return all;
 }
 
 inline std::string name(const PhysicsSpec& p) {
-  return std::string(word(p.formulation)) + " " + std::string(word(p.reconstruction)) + " " + std::string(word(p.flux_correction)) + " " + std::string(word(p.pressure_jump)) +
-         " " + std::string(word(p.boundary_flux)) + " " + std::string(word(p.upwind_metric));
+  return std::string(word(p.formulation)) + " " + std::string(word(p.reconstruction)) + " "
+         + std::string(word(p.flux_correction)) + " " + std::string(word(p.pressure_jump)) + " "
+         + std::string(word(p.boundary_flux)) + " " + std::string(word(p.upwind_metric));
 }
 
 /// Steps of a fixed size.
 inline void march(Simulation& s, double dt, int steps) {
-  for (int i = 0; i < steps; ++i) s.dt = dt, advance(s);
+  for (int i = 0; i < steps; ++i) {
+    s.dt = dt;
+    advance(s);
+  }
 }
 
 /// Steps of the scene's rule, without its end.
 inline void march(Simulation& s, int steps) {
-  for (int i = 0; i < steps; ++i) s.dt = allowed_step(s), advance(s);
+  for (int i = 0; i < steps; ++i) {
+    s.dt = allowed_step(s);
+    advance(s);
+  }
 }
 
 /// Runs to the end; the status.
@@ -135,13 +173,19 @@ inline double* U_of(Simulation& s, int node) { return &s.state.U[0][row::U * s.o
 /// Takes a state that a test wrote into the rows: its stress, step bound and ledger.
 inline void adopt_state(Simulation& s) {
   Rows r{};
-  r.X = s.state.X.data(), r.U_new = s.state.U[0].data(), r.H_new = s.state.H[0].data();
-  r.W_new = s.state.W[s.state.now].data(), r.PH_new = s.state.PH[s.state.now].data();
-  for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = stress_of_part(s, static_cast<int>(p), r, s.coefficients, scratch_of(s, 0));
+  r.X = s.state.X.data();
+  r.U_new = s.state.U[0].data();
+  r.H_new = s.state.H[0].data();
+  r.W_new = s.state.W[s.state.now].data();
+  r.PH_new = s.state.PH[s.state.now].data();
+  for (std::size_t p = 0; p < s.order.parts.size(); ++p)
+    s.reports[p] = stress_of_part(s, static_cast<int>(p), r, s.coefficients, scratch_of(s, 0));
   s.state.has_lagged_correction = false;
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  s.ledger.initial_energy = e.kinetic + e.strain, s.ledger.initial_momentum = m.linear, s.ledger.initial_angular_momentum = m.angular;
+  s.ledger.initial_energy = e.kinetic + e.strain;
+  s.ledger.initial_momentum = m.linear;
+  s.ledger.initial_angular_momentum = m.angular;
 }
 
 /// x = F X everywhere, J and H as F says; the velocities stay.
@@ -170,10 +214,12 @@ inline void push(Simulation& s, const Vec3& v) {
 
 /// Power that the stabilisation takes out of the rows W, PH and G as they stand [W].
 inline double dissipated_power(Simulation& s) {
-  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, Materials::one, true, s.state.has_lagged_correction);
+  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, Materials::one, true,
+                                                      s.state.has_lagged_correction);
   double power = 0;
   for (const Part& part : s.order.parts)
-    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), s.order.lists(), stage_rows(s.state, 0, 0), s.coefficients, scratch_of(s, 0));
+    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), s.order.lists(), stage_rows(s.state, 0, 0),
+                                 s.coefficients, scratch_of(s, 0));
   return power;
 }
 
@@ -188,11 +234,18 @@ inline Rates rates(Simulation& s) {
   Rates out{Aligned<double>(row::U * count, 0.0), Aligned<double>(row::G * count, 0.0)};
   Aligned<double> H(u.H[0].size(), 0.0);
   Coefficients k = s.coefficients;
-  k.old_weight = 0, k.stage_weight = 0, k.dt = 1, k.acceleration = s.acceleration.data();
+  k.old_weight = 0;
+  k.stage_weight = 0;
+  k.dt = 1;
+  k.acceleration = s.acceleration.data();
   Rows rows = stage_rows(u, 0, 0);
   find_current_areas(s, rows.U_stage);
-  rows.dJ = s.current.dJ.data(), rows.rho = s.mixture.rho.data();
-  rows.G = out.G.data(), rows.U_new = out.U.data(), rows.H_new = H.data(), rows.W_new = nullptr;
+  rows.dJ = s.current.dJ.data();
+  rows.rho = s.mixture.rho.data();
+  rows.G = out.G.data();
+  rows.U_new = out.U.data();
+  rows.H_new = H.data();
+  rows.W_new = nullptr;
   const auto edges = s.order.edges();
   const auto corners = s.order.corners();
   const auto lists = s.order.lists();
@@ -201,7 +254,8 @@ inline Rates rates(Simulation& s) {
   if (s.functions.corrects_stress) rows.PH = rows.PH_new;
   for (const Part& part : s.order.parts) {
     s.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);
-    s.functions.accumulate_update(part, edges, lists, rows, k, s.boundary.constraints.data(), u.reactions.data(), scratch);
+    s.functions.accumulate_update(part, edges, lists, rows, k, s.boundary.constraints.data(), u.reactions.data(),
+                                  scratch);
   }
   return out;
 }
@@ -219,7 +273,10 @@ inline Tensor<double> random_rotation(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
   double q[4], size = 0;
-  for (double& c : q) c = normal(random), size += c * c;
+  for (double& c : q) {
+    c = normal(random);
+    size += c * c;
+  }
   for (double& c : q) c /= std::sqrt(size);
   const double w = q[0], x = q[1], y = q[2], z = q[3];
   return {{{1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)},
@@ -228,7 +285,8 @@ inline Tensor<double> random_rotation(std::uint64_t seed) {
 }
 
 inline Vec3 times(const Tensor<double>& A, const Vec3& v) {
-  return {A[0][0] * v[0] + A[0][1] * v[1] + A[0][2] * v[2], A[1][0] * v[0] + A[1][1] * v[1] + A[1][2] * v[2], A[2][0] * v[0] + A[2][1] * v[1] + A[2][2] * v[2]};
+  return {A[0][0] * v[0] + A[0][1] * v[1] + A[0][2] * v[2], A[1][0] * v[0] + A[1][1] * v[1] + A[1][2] * v[2],
+          A[2][0] * v[0] + A[2][1] * v[1] + A[2][2] * v[2]};
 }
 
 }  // namespace nanson::method

@@ -21,7 +21,9 @@ void fill_rows(Simulation& s, Velocity velocity, Stress stress) {
   for (int n : real_rows(s)) {
     const double* X = &s.state.X[row::X * n];
     for (int i = 0; i < 4; ++i)
-      W[row::W * n + i] = velocity == Velocity::random ? uniform(random) : std::sin(wave[i][0] * X[0] + wave[i][1] * X[1] + wave[i][2] * X[2] + wave[i][3]);
+      W[row::W * n + i] = velocity == Velocity::random
+                              ? uniform(random)
+                              : std::sin(wave[i][0] * X[0] + wave[i][1] * X[1] + wave[i][2] * X[2] + wave[i][3]);
     for (int m = 0; m < 9; ++m) {
       PH[row::PH * n + 8 * (m / 3) + m % 3] = uniform(random);
       PH[row::PH * n + 8 * (m / 3) + 4 + m % 3] = m % 4 == 0;
@@ -37,8 +39,8 @@ void fill_rows(Simulation& s, Velocity velocity, Stress stress) {
 }
 
 struct Defect {
-  double of_sizes;   // |sum Omega P : grad v + sum v . f - sum v . t| over the sum of the terms' sizes
-  double of_power;   // the same over |sum Omega P : grad v|
+  double of_sizes;  // |sum Omega P : grad v + sum v . f - sum v . t| over the sum of the terms' sizes
+  double of_power;  // the same over |sum Omega P : grad v|
 };
 
 /// Without stabilisation.
@@ -57,7 +59,8 @@ Defect defect(const PhysicsSpec& physics, Velocity velocity, Stress stress, int 
   for (int n : real_rows(s)) {
     const double volume = 1 / s.state.X[row::X * n + 3], mass = volume * s.coefficients.material.rho;
     const double* rate = &r.U[row::U * n];
-    for (int m = 0; m < 9; ++m) add(internal, volume * PH[row::PH * n + 8 * (m / 3) + m % 3] * rate[4 * (m / 3 + 1) + m % 3]);
+    for (int m = 0; m < 9; ++m)
+      add(internal, volume * PH[row::PH * n + 8 * (m / 3) + m % 3] * rate[4 * (m / 3 + 1) + m % 3]);
     for (int i = 0; i < 3; ++i) add(rest, mass * W[row::W * n + i] * rate[i]);
   }
   for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)
@@ -66,7 +69,9 @@ Defect defect(const PhysicsSpec& physics, Velocity velocity, Stress stress, int 
   return {std::abs(internal + rest) / size, std::abs(internal + rest) / std::abs(internal)};
 }
 
-std::string record(const Defect& random, const Defect& smooth) { return fmt::format("random v {:.3g}, smooth v {:.3g}", random.of_power, smooth.of_power); }
+std::string record(const Defect& random, const Defect& smooth) {
+  return fmt::format("random v {:.3g}, smooth v {:.3g}", random.of_power, smooth.of_power);
+}
 
 TEST(Adjoint, ForceIsTheAdjointOfTheGradientForAnyFields) {
   double worst = 0;
@@ -75,7 +80,8 @@ TEST(Adjoint, ForceIsTheAdjointOfTheGradientForAnyFields) {
       for (auto velocity : {Velocity::random, Velocity::smooth})
         for (auto stress : {Stress::random, Stress::gradient}) {
           PhysicsSpec p;
-          p.formulation = formulation, p.reconstruction = reconstruction;
+          p.formulation = formulation;
+          p.reconstruction = reconstruction;
           worst = std::max(worst, defect(p, velocity, stress).of_sizes);
         }
   RecordProperty("defect", fmt::format("{:.3g}", worst));
@@ -85,7 +91,8 @@ TEST(Adjoint, ForceIsTheAdjointOfTheGradientForAnyFields) {
 TEST(Adjoint, PaperBoundaryFluxIsNotAdjoint) {
   PhysicsSpec p;
   p.boundary_flux = BoundaryFlux::paper;
-  const Defect random = defect(p, Velocity::random, Stress::gradient), smooth = defect(p, Velocity::smooth, Stress::gradient);
+  const Defect random = defect(p, Velocity::random, Stress::gradient),
+               smooth = defect(p, Velocity::smooth, Stress::gradient);
   RecordProperty("defect", record(random, smooth));
   EXPECT_GT(random.of_power, 0.05);
   EXPECT_GT(smooth.of_power, 3e-3);
@@ -97,11 +104,15 @@ struct CorrectionCase {
 };
 
 TEST(Adjoint, FluxCorrectionsAreAdjointUpToAnErrorThatFallsWithTheMesh) {
-  for (const auto& c : {CorrectionCase{FluxCorrection::pressure, 0.1, 2.5}, CorrectionCase{FluxCorrection::full, 0.02, 6}}) {
+  for (const auto& c :
+       {CorrectionCase{FluxCorrection::pressure, 0.1, 2.5}, CorrectionCase{FluxCorrection::full, 0.02, 6}}) {
     PhysicsSpec p;
     p.flux_correction = c.correction;
-    const double coarse = defect(p, Velocity::smooth, Stress::gradient, 4).of_power, fine = defect(p, Velocity::smooth, Stress::gradient, 8).of_power;
-    RecordProperty(std::string(word(c.correction)), fmt::format("{:.3g}, at h/2 {:.3g}; random v {:.3g}", coarse, fine, defect(p, Velocity::random, Stress::gradient).of_power));
+    const double coarse = defect(p, Velocity::smooth, Stress::gradient, 4).of_power,
+                 fine = defect(p, Velocity::smooth, Stress::gradient, 8).of_power;
+    RecordProperty(std::string(word(c.correction)),
+                   fmt::format("{:.3g}, at h/2 {:.3g}; random v {:.3g}", coarse, fine,
+                               defect(p, Velocity::random, Stress::gradient).of_power));
     EXPECT_LT(coarse, c.largest) << name(p);
     EXPECT_LT(fine, coarse / c.least_ratio) << name(p);
   }

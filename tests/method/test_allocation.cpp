@@ -30,8 +30,12 @@ void* operator new(std::size_t size) { return counted_or_throw(size, plain); }
 void* operator new[](std::size_t size) { return counted_or_throw(size, plain); }
 void* operator new(std::size_t size, const std::nothrow_t&) noexcept { return counted(size, plain); }
 void* operator new[](std::size_t size, const std::nothrow_t&) noexcept { return counted(size, plain); }
-void* operator new(std::size_t size, std::align_val_t alignment) { return counted_or_throw(size, static_cast<std::size_t>(alignment)); }
-void* operator new[](std::size_t size, std::align_val_t alignment) { return counted_or_throw(size, static_cast<std::size_t>(alignment)); }
+void* operator new(std::size_t size, std::align_val_t alignment) {
+  return counted_or_throw(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return counted_or_throw(size, static_cast<std::size_t>(alignment));
+}
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete[](void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
@@ -46,15 +50,20 @@ namespace {
 
 long allocations_of_three_steps(Simulation& s) {
   march(s, 2);
-  allocations = 0, counting = true;
+  allocations = 0;
+  counting = true;
   march(s, 3);
   counting = false;
   return allocations;
 }
 
 TEST(Allocation, TheCounterCounts) {
-  allocations = 0, counting = true;
-  { std::vector<double> usual(10); Aligned<double> aligned(10); }
+  allocations = 0;
+  counting = true;
+  {
+    std::vector<double> usual(10);
+    Aligned<double> aligned(10);
+  }
   counting = false;
   EXPECT_EQ(allocations, 2);
 }
@@ -65,11 +74,14 @@ TEST(Allocation, AStepAllocatesNothing) {
       for (const PhysicsSpec& physics : every_physics())
         for (auto integrator : integrators) {
           Scene scene = loaded_bar(3);
-          scene.physics = physics, scene.time.integrator = integrator, scene.monitor.energy = energy;
+          scene.physics = physics;
+          scene.time.integrator = integrator;
+          scene.monitor.energy = energy;
           scene.physics.keep_angular_momentum = energy && integrator == Integrator::tvd_rk2;
           const Problem problem(scene);
           Simulation s = problem.start(threads);
-          EXPECT_EQ(allocations_of_three_steps(s), 0) << name(physics) << ' ' << word(integrator) << (energy ? " with monitor.energy" : "");
+          EXPECT_EQ(allocations_of_three_steps(s), 0)
+              << name(physics) << ' ' << word(integrator) << (energy ? " with monitor.energy" : "");
         }
 }
 
@@ -78,7 +90,9 @@ TEST(Allocation, AStepWithCurrentAreasAllocatesNothing) {
     for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear})
       for (int threads : {1, 2}) {
         Scene scene = loaded_bar(3);
-        scene.physics.description = description, scene.physics.reconstruction = reconstruction, scene.monitor.energy = true;
+        scene.physics.description = description;
+        scene.physics.reconstruction = reconstruction;
+        scene.monitor.energy = true;
         const Problem problem(scene);
         Simulation s = problem.start(threads);
         EXPECT_EQ(allocations_of_three_steps(s), 0) << word(description);
@@ -89,8 +103,11 @@ TEST(Allocation, AProjectedStepAllocatesNothing) {
   for (auto solver : {ProjectionSolver::cg, ProjectionSolver::pseudo_time})
     for (int threads : {1, 2}) {
       Scene scene = loaded_bar(3);
-      scene.physics.formulation = Formulation::pFp, scene.material.poissons_ratio = 0.5, scene.monitor.energy = true;
-      scene.projection.solver = solver, scene.projection.length_scale = 0.2;
+      scene.physics.formulation = Formulation::pFp;
+      scene.material.poissons_ratio = 0.5;
+      scene.monitor.energy = true;
+      scene.projection.solver = solver;
+      scene.projection.length_scale = 0.2;
       const Problem problem(scene);
       Simulation s = problem.start(threads);
       EXPECT_EQ(allocations_of_three_steps(s), 0) << word(solver);

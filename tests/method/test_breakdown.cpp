@@ -20,7 +20,7 @@ Scene crushed_block() {
 }
 
 struct Frames {
-  int count = 0, rows = 0;                // frames and history rows told
+  int count = 0, rows = 0;  // frames and history rows told
   bool last_was_frame = false, last_broken = false;
   double last_t = -1;
 };
@@ -29,21 +29,25 @@ std::string run_and_watch(Simulation& s, Frames& f, std::string& reason) {
   Observer observer;
   observer.on_step = [&](const Simulation&) { f.last_was_frame = false; };
   observer.on_history = [&](const Simulation&) { ++f.rows, f.last_was_frame = false; };
-  observer.on_frame = [&](const Simulation& now) { ++f.count, f.last_was_frame = true, f.last_broken = now.breakdown.has_value(), f.last_t = now.t; };
+  observer.on_frame = [&](const Simulation& now) {
+    ++f.count, f.last_was_frame = true, f.last_broken = now.breakdown.has_value(), f.last_t = now.t;
+  };
   return run(s, observer, reason);
 }
 
 bool sound(const double* U, Formulation formulation) {
   Tensor<double> F;
   for (int m = 0; m < 9; ++m) F[m % 3][m / 3] = U[4 * (m / 3 + 1) + m % 3];
-  return determinant(F, cofactor(F)) > 0 && (formulation == Formulation::pF || U[3] > 0) && std::isfinite(U[0] + U[1] + U[2]);
+  return determinant(F, cofactor(F)) > 0 && (formulation == Formulation::pF || U[3] > 0)
+         && std::isfinite(U[0] + U[1] + U[2]);
 }
 
 TEST(Breakdown, InversionEndsTheRunAndNamesTheNode) {
   for (auto formulation : formulations)
     for (auto integrator : integrators) {
       Scene scene = crushed_block();
-      scene.physics.formulation = formulation, scene.time.integrator = integrator;
+      scene.physics.formulation = formulation;
+      scene.time.integrator = integrator;
       const Problem problem(scene);
       Simulation s = problem.start();
       Frames frames;
@@ -53,7 +57,8 @@ TEST(Breakdown, InversionEndsTheRunAndNamesTheNode) {
       ASSERT_GE(s.breakdown->node, 0);
       EXPECT_FALSE(sound(U_of(s, s.breakdown->node), formulation)) << "the named node is sound";
       EXPECT_EQ(reason, s.breakdown->text);
-      EXPECT_TRUE(s.breakdown->cause == "detF" || (s.breakdown->cause == "J" && formulation != Formulation::pF)) << s.breakdown->cause;
+      EXPECT_TRUE(s.breakdown->cause == "detF" || (s.breakdown->cause == "J" && formulation != Formulation::pF))
+          << s.breakdown->cause;
       EXPECT_NE(reason.find("node " + std::to_string(s.breakdown->node) + " at X = ("), std::string::npos) << reason;
       char t[32];
       std::snprintf(t, sizeof t, "t = %.6e s", s.t);
@@ -69,7 +74,10 @@ TEST(Breakdown, InversionEndsTheRunAndNamesTheNode) {
 
 TEST(Breakdown, TheSameBlockEndsWellWithoutTheLargeStep) {
   Scene scene = crushed_block();
-  scene.time.cfl = 0.3, scene.boundary[1].velocity[2] = -10, scene.material.volumetric = Volumetric::barrier, scene.time.end = 0.02;
+  scene.time.cfl = 0.3;
+  scene.boundary[1].velocity[2] = -10;
+  scene.material.volumetric = Volumetric::barrier;
+  scene.time.end = 0.02;
   const Problem problem(scene);
   Simulation s = problem.start();
   Frames frames;
@@ -85,7 +93,8 @@ TEST(Breakdown, NaNInAnyQuantityIsCaughtInTheNextStep) {
       if (lane % 4 == 3 && lane != 3) continue;  // x: only following loads read it
       if (lane == 3 && formulation == Formulation::pF) continue;
       Scene scene = free_bar(3);
-      scene.physics.formulation = formulation, scene.time.max_steps = 20;
+      scene.physics.formulation = formulation;
+      scene.time.max_steps = 20;
       const Problem problem(scene);
       Simulation s = problem.start();
       march(s, 2);
@@ -114,7 +123,8 @@ TEST(Breakdown, CollapseOfTheStepIsCaughtAndNamed) {
   scene.initial.field = InitialField::rest;
   scene.boundary = {condition({"zmin"}, BoundaryKind::fixed), condition({"zmax"}, BoundaryKind::velocity)};
   scene.boundary[1].velocity = {0, 0, -20};
-  scene.time.end = 0.1, scene.time.dt_collapse = 0.7;
+  scene.time.end = 0.1;
+  scene.time.dt_collapse = 0.7;
   const Problem problem(scene);
   Simulation s = problem.start();
   Frames frames;

@@ -10,7 +10,8 @@ namespace {
 /// Of a pushed, twisted bar, relative to sum Omega |p| at the start (with constant reconstruction the motion dies out).
 double drift(const PhysicsSpec& physics, Integrator integrator, int n, int steps) {
   Scene scene = free_bar(n);
-  scene.physics = physics, scene.time.integrator = integrator;
+  scene.physics = physics;
+  scene.time.integrator = integrator;
   const Problem problem(scene);
   Simulation s = problem.start();
   push(s, {20, -7, 11});
@@ -47,7 +48,8 @@ TEST(Momentum, ChangesByTheBookedImpulseUnderEverySupportAndLoad) {
   for (const PhysicsSpec& physics : every_physics())
     for (auto integrator : integrators) {
       Scene scene = loaded_bar(3);
-      scene.physics = physics, scene.time.integrator = integrator;
+      scene.physics = physics;
+      scene.time.integrator = integrator;
       const Problem problem(scene);
       Simulation s = problem.start();
       march(s, 300);
@@ -65,7 +67,8 @@ TEST(Momentum, ChangesByReactionsTractionsAndWeightStepByStep) {
   for (auto integrator : integrators) {
     Scene scene = loaded_bar(3);
     scene.boundary.erase(scene.boundary.begin() + 3);  // without the following pressure
-    scene.time.integrator = integrator, scene.time.end = 0.02;
+    scene.time.integrator = integrator;
+    scene.time.end = 0.02;
     const Problem problem(scene);
     Simulation s = problem.start();
     ASSERT_EQ(s.boundary.held_faces, (std::vector<std::string>{"zmin", "xmin", "zmax"}));

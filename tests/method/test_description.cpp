@@ -12,7 +12,8 @@ constexpr std::array current{Description::updated, Description::pseudo_updated};
 constexpr std::array all{Description::total, Description::updated, Description::pseudo_updated};
 
 Scene with(Scene s, Description d, Reconstruction r = Reconstruction::linear) {
-  s.physics.description = d, s.physics.reconstruction = r;
+  s.physics.description = d;
+  s.physics.reconstruction = r;
   return s;
 }
 
@@ -22,7 +23,10 @@ void shake(Simulation& s) {
   std::uniform_real_distribution<double> uniform(-1, 1);
   for (int n = 0; n < s.order.nodes; ++n) {
     double* U = U_of(s, n);
-    for (int i = 0; i < 3; ++i) U[i] = 5 * uniform(random), U[4 * (i + 1) + 3] += 0.02 * uniform(random);
+    for (int i = 0; i < 3; ++i) {
+      U[i] = 5 * uniform(random);
+      U[4 * (i + 1) + 3] += 0.02 * uniform(random);
+    }
     U[3] = 1 + 0.1 * uniform(random);
     for (int m = 0; m < 9; ++m) U[4 * (m / 3 + 1) + m % 3] += 0.1 * uniform(random);
   }
@@ -91,7 +95,9 @@ TEST(Description, ATranslationMovesNoJ) {
     shake(s);
     for (int n = 0; n < s.order.nodes; ++n) {
       double* U = U_of(s, n);
-      U[0] = 3.3, U[1] = -0.7, U[2] = 1.9;
+      U[0] = 3.3;
+      U[1] = -0.7;
+      U[2] = 1.9;
     }
     adopt_state(s);
     s.coefficients.rho_cp = 1e200;
@@ -122,7 +128,8 @@ TEST(Description, ForcesOfAPressureDoTheWorkOnJ) {
     for (int n : real_rows(s)) {
       const double volume = 1 / s.state.X[row::X * n + 3], p = s.state.PH[s.state.now][row::PH * n + 4];
       const double *v = &s.state.W[s.state.now][row::W * n], *rate = &r.U[row::U * n];
-      on_J += volume * p * rate[3], scale += volume * std::abs(p * rate[3]);
+      on_J += volume * p * rate[3];
+      scale += volume * std::abs(p * rate[3]);
       for (int i = 0; i < 3; ++i) of_force += volume * s.coefficients.material.rho * rate[i] * v[i];
     }
     EXPECT_GT(scale, 0);
@@ -142,7 +149,8 @@ TEST(Description, MomentumIsConstantInAFreeBarAndChangesByTheBookedImpulse) {
         const double scale = momenta(s).linear_scale;
         march(s, 100);
         EXPECT_FALSE(s.breakdown);
-        EXPECT_LT(linear_momentum_drift(s) * momenta(s).linear_scale, 1e-13 * scale) << word(d) << ' ' << word(reconstruction) << ' ' << word(integrator);
+        EXPECT_LT(linear_momentum_drift(s) * momenta(s).linear_scale, 1e-13 * scale)
+            << word(d) << ' ' << word(reconstruction) << ' ' << word(integrator);
         Problem loaded(with(loaded_bar(3), d, reconstruction));
         loaded.scene.time.integrator = integrator;
         Simulation l = loaded.start();
@@ -159,7 +167,8 @@ TEST(Description, AngularMomentumIsKeptWhereAskedFor) {
     scene.physics.keep_angular_momentum = true;
     Problem kept(scene);
     Simulation k = kept.start(), l = lost.start();
-    march(k, 100), march(l, 100);
+    march(k, 100);
+    march(l, 100);
     EXPECT_FALSE(k.breakdown);
     EXPECT_LT(*angular_momentum_drift(k), 1e-13) << word(d);
     EXPECT_GT(*angular_momentum_drift(l), 1e-10) << word(d);
@@ -177,7 +186,8 @@ TEST(Description, ThreadsChangeNoBit) {
       for (int threads : {1, 2, 3}) {
         Simulation s = problem.start(threads);
         march(s, 3);
-        const std::string bits = state_hash(s) + ' ' + std::to_string(std::bit_cast<std::uint64_t>(s.ledger.dissipated));
+        const std::string bits = state_hash(s) + ' '
+                                 + std::to_string(std::bit_cast<std::uint64_t>(s.ledger.dissipated));
         if (threads == 1) once = bits;
         EXPECT_EQ(once, bits) << word(d) << ' ' << threads;
       }
@@ -209,7 +219,8 @@ TEST(Description, AreasOfACutEdgeAreBitwiseOppositeInItsTwoParts) {
 TEST(Description, MonitorsOfTheStateAsItStands) {
   for (auto d : current) {
     Scene scene = with(column(2, 0.45), d);
-    scene.monitor.energy = true, scene.monitor.entropy = true;
+    scene.monitor.energy = true;
+    scene.monitor.entropy = true;
     Problem problem(scene);
     Simulation s = problem.start();
     march(s, 20);
@@ -219,7 +230,8 @@ TEST(Description, MonitorsOfTheStateAsItStands) {
     advance(s);
     EXPECT_NEAR((s.ledger.dissipated - before) / 1e-9 / e.total, 1, 1e-3) << word(d);
     double H[9], F[9];
-    field_at(s, "H", 5, H), field_at(s, "F", 5, F);
+    field_at(s, "H", 5, H);
+    field_at(s, "F", 5, F);
     EXPECT_NEAR(H[0], F[4] * F[8] - F[5] * F[7], 1e-14) << word(d);
   }
 }

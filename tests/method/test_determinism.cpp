@@ -16,7 +16,8 @@ std::string outcome(const Problem& problem, int threads) {
   std::string bits = state_hash(s);
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  for (double x : {s.dt, allowed_step(s), s.ledger.impulse[0], s.ledger.impulse[2], s.ledger.external_work, s.ledger.dissipated, e.kinetic, e.strain, m.linear[0], m.angular[1]})
+  for (double x : {s.dt, allowed_step(s), s.ledger.impulse[0], s.ledger.impulse[2], s.ledger.external_work,
+                   s.ledger.dissipated, e.kinetic, e.strain, m.linear[0], m.angular[1]})
     bits += ' ' + std::to_string(std::bit_cast<std::uint64_t>(x));
   return bits;
 }
@@ -28,9 +29,11 @@ TEST(Determinism, ThreadsChangeNoBit) {
   ASSERT_GE(problem.start().order.parts.size(), 2u);
   for (const PhysicsSpec& physics : every_physics())
     for (auto integrator : integrators) {
-      problem.scene.physics = physics, problem.scene.time.integrator = integrator;
+      problem.scene.physics = physics;
+      problem.scene.time.integrator = integrator;
       const std::string once = outcome(problem, 1);
-      for (int threads : {2, 3}) EXPECT_EQ(once, outcome(problem, threads)) << name(physics) << ' ' << word(integrator) << ' ' << threads;
+      for (int threads : {2, 3})
+        EXPECT_EQ(once, outcome(problem, threads)) << name(physics) << ' ' << word(integrator) << ' ' << threads;
     }
 }
 
@@ -66,8 +69,16 @@ TEST(Determinism, FluxOfACutEdgeIsBitwiseOppositeInItsTwoParts) {
     }
     Aligned<double> G(row::G * s.order.rows, 0.0);
     Rows rows{};
-    rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = G.data(), rows.dP = u.dP.data(), rows.PH_new = u.PH[1 - u.now].data(), rows.lagged_q = u.q.data(), rows.GP = u.GP.data();
-    for (const Part& part : s.order.parts) s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+    rows.X = u.X.data();
+    rows.W = u.W[u.now].data();
+    rows.PH = u.PH[u.now].data();
+    rows.G = G.data();
+    rows.dP = u.dP.data();
+    rows.PH_new = u.PH[1 - u.now].data();
+    rows.lagged_q = u.q.data();
+    rows.GP = u.GP.data();
+    for (const Part& part : s.order.parts)
+      s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
     if (s.functions.corrects_stress) rows.PH = rows.PH_new;
     const int width = physics.flux_correction == FluxCorrection::none ? 4 : 8;
     std::map<std::pair<int, int>, std::array<double, 4>> flux;

@@ -10,14 +10,23 @@ namespace {
 /// The twisting column, pulled, pressed, pushed down and heavy: every kind of external work, and nothing that the start contradicts.
 Scene driven_column() {
   Scene s = column(3, 0.3);
-  s.mesh.size[2] = 3, s.mesh.cells = {3, 4, 8}, s.mesh.perturb = 0.2, s.initial.height = 3;
+  s.mesh.size[2] = 3;
+  s.mesh.cells = {3, 4, 8};
+  s.mesh.perturb = 0.2;
+  s.initial.height = 3;
   s.boundary.push_back(condition({"ymax"}, BoundaryKind::traction));
   s.boundary.push_back(condition({"xmax"}, BoundaryKind::pressure));
-  for (auto load = s.boundary.begin() + 1; load != s.boundary.end(); ++load) load->time.kind = TimeKind::ramp, load->time.until = 0.02;
-  s.boundary[1].traction = {2e5, -1e5, 3e5}, s.boundary[2].pressure = 4e5;
+  for (auto load = s.boundary.begin() + 1; load != s.boundary.end(); ++load) {
+    load->time.kind = TimeKind::ramp;
+    load->time.until = 0.02;
+  }
+  s.boundary[1].traction = {2e5, -1e5, 3e5};
+  s.boundary[2].pressure = 4e5;
   s.boundary.push_back(condition({"zmax"}, BoundaryKind::velocity));
-  s.boundary[3].velocity = {0, 0, -6}, s.boundary[3].held = {false, false, true};
-  s.boundary[3].time.kind = TimeKind::sine, s.boundary[3].time.frequency = 30;
+  s.boundary[3].velocity = {0, 0, -6};
+  s.boundary[3].held = {false, false, true};
+  s.boundary[3].time.kind = TimeKind::sine;
+  s.boundary[3].time.frequency = 30;
   s.body_force = {3, -5, -9.81};
   s.time.end = 0.05;
   return s;
@@ -25,10 +34,10 @@ Scene driven_column() {
 
 struct Audit {
   std::string status;
-  double closure = 0, worst_closure = 0;      // at the end, over all steps
-  double final_energy = 0, worst_growth = -1; // E/E0; largest (E - W_ext)/E0 - 1 after the start
-  double external_work = 0;                   // [J]
-  double least_dissipation = 1e300;           // [J] smallest of a step
+  double closure = 0, worst_closure = 0;       // at the end, over all steps
+  double final_energy = 0, worst_growth = -1;  // E/E0; largest (E - W_ext)/E0 - 1 after the start
+  double external_work = 0;                    // [J]
+  double least_dissipation = 1e300;            // [J] smallest of a step
 };
 
 /// Runs the scene; `noise` [m/s] is added to the velocity of every node at random, which wakes the modes of the grid.
@@ -49,14 +58,17 @@ Audit audit(Scene scene, double noise = 0) {
   observer.on_step = [&](const Simulation&) {
     const Energies e = energies(s);
     a.worst_closure = std::max(a.worst_closure, energy_closure(s, e));
-    a.worst_growth = std::max(a.worst_growth, (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy - 1);
+    a.worst_growth = std::max(a.worst_growth,
+                              (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy - 1);
     a.least_dissipation = std::min(a.least_dissipation, s.ledger.dissipated - dissipated);
     dissipated = s.ledger.dissipated;
   };
   std::string reason;
   a.status = run(s, observer, reason);
   const Energies e = energies(s);
-  a.closure = energy_closure(s, e), a.final_energy = (e.kinetic + e.strain) / s.ledger.initial_energy, a.external_work = s.ledger.external_work;
+  a.closure = energy_closure(s, e);
+  a.final_energy = (e.kinetic + e.strain) / s.ledger.initial_energy;
+  a.external_work = s.ledger.external_work;
   return a;
 }
 
@@ -76,7 +88,8 @@ TEST(EnergyAudit, ClosesAtTheDefaultStep) {
     for (auto formulation : formulations) {
       c.scene.physics.formulation = formulation;
       const Audit a = audit(c.scene);
-      RecordProperty(fmt::format("{}_{}", c.what, word(formulation)), fmt::format("{:.2e}, worst {:.2e}", a.closure, a.worst_closure));
+      RecordProperty(fmt::format("{}_{}", c.what, word(formulation)),
+                     fmt::format("{:.2e}, worst {:.2e}", a.closure, a.worst_closure));
       EXPECT_EQ(a.status, "done");
       EXPECT_LT(a.closure, 1e-3) << c.what << ' ' << word(formulation);
       EXPECT_LT(a.worst_closure, 2e-3) << c.what << ' ' << word(formulation);
@@ -90,20 +103,28 @@ TEST(EnergyAudit, ResidualFallsWithTheIntegratorsOrder) {
     for (auto formulation : formulations)
       for (auto integrator : integrators) {
         Scene scene = c.scene;
-        scene.physics.formulation = formulation, scene.time.integrator = integrator, scene.time.cfl = 0.3;
+        scene.physics.formulation = formulation;
+        scene.time.integrator = integrator;
+        scene.time.cfl = 0.3;
         const double whole = audit(scene).worst_closure;
         scene.time.cfl /= 2;
         const double half = audit(scene).worst_closure;
-        RecordProperty(fmt::format("{}_{}_{}", c.what, word(formulation), word(integrator)), fmt::format("{:.2e} / {:.2e} = {:.2f}", whole, half, whole / half));
-        EXPECT_GT(whole / half, integrator == Integrator::ssp_rk3 ? 6.5 : 3) << c.what << ' ' << word(formulation) << ' ' << word(integrator);
+        RecordProperty(fmt::format("{}_{}_{}", c.what, word(formulation), word(integrator)),
+                       fmt::format("{:.2e} / {:.2e} = {:.2f}", whole, half, whole / half));
+        EXPECT_GT(whole / half, integrator == Integrator::ssp_rk3 ? 6.5 : 3)
+            << c.what << ' ' << word(formulation) << ' ' << word(integrator);
       }
 }
 
 TEST(EnergyAudit, ClosesWithConstantReconstructionAndTensorJump) {
-  for (auto [reconstruction, jump] : {std::pair(Reconstruction::constant, PressureJump::scalar), std::pair(Reconstruction::constant, PressureJump::tensor),
+  for (auto [reconstruction, jump] : {std::pair(Reconstruction::constant, PressureJump::scalar),
+                                      std::pair(Reconstruction::constant, PressureJump::tensor),
                                       std::pair(Reconstruction::linear, PressureJump::tensor)}) {
     Scene scene = column(3, 0.495);
-    scene.physics.reconstruction = reconstruction, scene.physics.pressure_jump = jump, scene.time.integrator = Integrator::ssp_rk3, scene.time.cfl = 0.3;
+    scene.physics.reconstruction = reconstruction;
+    scene.physics.pressure_jump = jump;
+    scene.time.integrator = Integrator::ssp_rk3;
+    scene.time.cfl = 0.3;
     const double whole = audit(scene).worst_closure;
     scene.time.cfl /= 2;
     EXPECT_LT(whole, 1e-3) << name(scene.physics);
@@ -118,15 +139,23 @@ TEST(EnergyAudit, ClosesForEveryLaw) {
       for (auto isochoric : {Isochoric::F, Isochoric::J})
         for (auto formulation : formulations) {
           if (isochoric == Isochoric::J && formulation == Formulation::pF) continue;
-          if (law == Law::linear_elastic && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) continue;
+          if (law == Law::linear_elastic && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F))
+            continue;
           Scene scene = driven_column();
-          scene.material.law = law, scene.material.volumetric = volumetric, scene.material.isochoric = isochoric, scene.material.xi = law == Law::mooney_rivlin ? 6e5 : 0;
-          scene.physics.formulation = formulation, scene.time.integrator = Integrator::ssp_rk3, scene.time.cfl = 0.2, scene.time.end = 0.02;
+          scene.material.law = law;
+          scene.material.volumetric = volumetric;
+          scene.material.isochoric = isochoric;
+          scene.material.xi = law == Law::mooney_rivlin ? 6e5 : 0;
+          scene.physics.formulation = formulation;
+          scene.time.integrator = Integrator::ssp_rk3;
+          scene.time.cfl = 0.2;
+          scene.time.end = 0.02;
           if (law == Law::linear_elastic) scene.initial.twist_omega = 5;
           const double whole = audit(scene).worst_closure;
           scene.time.cfl /= 2;
           const double half = audit(scene).worst_closure;
-          const std::string what = fmt::format("{}_{}_{}_{}", word(law), word(volumetric), word(isochoric), word(formulation));
+          const std::string what = fmt::format("{}_{}_{}_{}", word(law), word(volumetric), word(isochoric),
+                                               word(formulation));
           RecordProperty(what, fmt::format("{:.2e} / {:.2e} = {:.2f}", whole, half, whole / half));
           EXPECT_LT(whole, 1e-3) << what;
           EXPECT_GT(whole / half, 6.5) << what;
@@ -138,13 +167,20 @@ TEST(EnergyAudit, ClosesWithAnEnergyOfTheParting) {
   for (auto law : {Law::neo_hookean, Law::mooney_rivlin})
     for (auto formulation : {Formulation::pFJ, Formulation::pFHJ}) {
       Scene scene = driven_column();
-      scene.material.law = law, scene.material.xi = law == Law::mooney_rivlin ? 6e5 : 0, scene.initial.twist_omega = 200;
-      scene.physics.formulation = formulation, scene.physics.parting = 1, scene.time.integrator = Integrator::ssp_rk3, scene.time.cfl = 0.2, scene.time.end = 0.02;
+      scene.material.law = law;
+      scene.material.xi = law == Law::mooney_rivlin ? 6e5 : 0;
+      scene.initial.twist_omega = 200;
+      scene.physics.formulation = formulation;
+      scene.physics.parting = 1;
+      scene.time.integrator = Integrator::ssp_rk3;
+      scene.time.cfl = 0.2;
+      scene.time.end = 0.02;
       const Audit whole = audit(scene);
       scene.time.cfl /= 2;
       const Audit half = audit(scene);
       const std::string what = fmt::format("{}_{}", word(law), word(formulation));
-      RecordProperty(what, fmt::format("{:.2e} / {:.2e} = {:.2f}", whole.worst_closure, half.worst_closure, whole.worst_closure / half.worst_closure));
+      RecordProperty(what, fmt::format("{:.2e} / {:.2e} = {:.2f}", whole.worst_closure, half.worst_closure,
+                                       whole.worst_closure / half.worst_closure));
       EXPECT_LT(whole.worst_closure, 1e-3) << what;
       EXPECT_GT(whole.worst_closure / half.worst_closure, 6.5) << what;
     }
@@ -153,7 +189,10 @@ TEST(EnergyAudit, ClosesWithAnEnergyOfTheParting) {
 /// Edges between parts stand in both, and must be counted once.
 TEST(EnergyAudit, ClosesAcrossTheCutEdgesOfParts) {
   Scene scene = driven_column();
-  scene.mesh.cells = {9, 9, 20}, scene.time.end = 0.002, scene.time.integrator = Integrator::ssp_rk3, scene.time.cfl = 0.2;
+  scene.mesh.cells = {9, 9, 20};
+  scene.time.end = 0.002;
+  scene.time.integrator = Integrator::ssp_rk3;
+  scene.time.cfl = 0.2;
   ASSERT_GE(Problem(scene).start().order.parts.size(), 2u);
   const double whole = audit(scene).worst_closure;
   scene.time.cfl /= 2;
@@ -166,7 +205,8 @@ TEST(EnergyAudit, ClosesAcrossTheCutEdgesOfParts) {
 /// Padding rows have a volume and fall too, but their weight is not the body's.
 TEST(EnergyAudit, OfAFreeFallIsExact) {
   Scene scene = free_bar(3);
-  scene.initial.field = InitialField::rest, scene.body_force = {3, -5, -9.81};
+  scene.initial.field = InitialField::rest;
+  scene.body_force = {3, -5, -9.81};
   const Problem problem(scene);
   ASSERT_GT(problem.start().order.rows, problem.start().order.nodes);
   for (auto integrator : integrators) {
@@ -178,7 +218,8 @@ TEST(EnergyAudit, OfAFreeFallIsExact) {
 /// The prototype's figures (scenes.md, 5; method, section 3): 1.496 and 0.798 of the initial energy at 0.1 s, residual +1.40.
 TEST(EnergyAudit, ExposesThePapersBoundaryFlux) {
   Scene scene = column(4);
-  scene.physics.formulation = Formulation::pF, scene.physics.upwind_metric = UpwindMetric::paper;
+  scene.physics.formulation = Formulation::pF;
+  scene.physics.upwind_metric = UpwindMetric::paper;
   const Audit adjoint = audit(scene);
   scene.physics.boundary_flux = BoundaryFlux::paper;
   const Audit paper = audit(scene);
@@ -192,7 +233,8 @@ TEST(EnergyAudit, ExposesThePapersBoundaryFlux) {
 
 TEST(EnergyGrowth, StopsTheRunWhereTheSceneAsksForIt) {
   Scene scene = column(4);
-  scene.physics.formulation = Formulation::pF, scene.physics.boundary_flux = BoundaryFlux::paper;
+  scene.physics.formulation = Formulation::pF;
+  scene.physics.boundary_flux = BoundaryFlux::paper;
   scene.monitor.energy_growth = EnergyGrowth::stop;
   scene.monitor.energy = true;
   const Problem problem(scene);
@@ -212,9 +254,13 @@ TEST(EnergyGrowth, IsNotSeenInASoundBodyThatStartsAtRest) {
         Scene scene = free_bar(3);
         scene.initial.field = InitialField::rest;
         scene.boundary = {condition({"zmin"}, BoundaryKind::fixed), condition({"zmax"}, kind)};
-        scene.boundary[1].traction = {0, 0, 1e5}, scene.boundary[1].pressure = 5e5, scene.boundary[1].velocity = {0, 0, -5};
-        scene.boundary[1].time.kind = time, scene.boundary[1].time.until = 0.01;
-        scene.time.integrator = integrator, scene.time.cfl = integrator == Integrator::tvd_rk2 ? 0.3 : 0.6;
+        scene.boundary[1].traction = {0, 0, 1e5};
+        scene.boundary[1].pressure = 5e5;
+        scene.boundary[1].velocity = {0, 0, -5};
+        scene.boundary[1].time.kind = time;
+        scene.boundary[1].time.until = 0.01;
+        scene.time.integrator = integrator;
+        scene.time.cfl = integrator == Integrator::tvd_rk2 ? 0.3 : 0.6;
         scene.monitor.energy_growth = EnergyGrowth::stop;
         const Audit a = audit(scene);
         EXPECT_EQ(a.status, "done") << word(kind) << ' ' << word(time) << ' ' << word(integrator);
@@ -230,11 +276,14 @@ TEST(EnergyGrowth, NeverHappensAtTheDefaultsOfBothIntegrators) {
         for (auto integrator : integrators)
           for (double noise : {0.0, 30.0}) {
             Scene scene = free_bar(3, nu);
-            scene.mesh.split = split, scene.physics.formulation = formulation;
-            scene.time.integrator = integrator, scene.time.cfl = integrator == Integrator::tvd_rk2 ? 0.3 : 0.6;
+            scene.mesh.split = split;
+            scene.physics.formulation = formulation;
+            scene.time.integrator = integrator;
+            scene.time.cfl = integrator == Integrator::tvd_rk2 ? 0.3 : 0.6;
             scene.time.end = 0.1;
             const Audit a = audit(scene, noise);
-            const std::string what = fmt::format("{}_{}_{}_{}_noise_{}", nu, word(split), word(formulation), word(integrator), noise);
+            const std::string what = fmt::format("{}_{}_{}_{}_noise_{}", nu, word(split), word(formulation),
+                                                 word(integrator), noise);
             EXPECT_EQ(a.status, "done") << what;
             EXPECT_LE(a.worst_growth, 1e-6) << what;
             EXPECT_GT(a.final_energy, 0.1) << what;
@@ -248,7 +297,8 @@ TEST(EnergyGrowth, NeverHappensUnderLoads) {
     for (auto integrator : integrators) {
       Scene scene = driven_column();
       scene.physics.formulation = formulation;
-      scene.time.integrator = integrator, scene.time.cfl = integrator == Integrator::tvd_rk2 ? 0.3 : 0.6;
+      scene.time.integrator = integrator;
+      scene.time.cfl = integrator == Integrator::tvd_rk2 ? 0.3 : 0.6;
       const Audit a = audit(scene);
       EXPECT_GT(a.external_work, 0.0);
       EXPECT_LE(a.worst_growth, 1e-6) << word(formulation) << ' ' << word(integrator);
@@ -256,9 +306,12 @@ TEST(EnergyGrowth, NeverHappensUnderLoads) {
 }
 
 /// Dissipated power of every single edge with random v, Sigma_J and deformed H.
-double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation formulation, UpwindMetric metric, double& total) {
+double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation formulation, UpwindMetric metric,
+                                    double& total) {
   Scene scene = free_bar(4);
-  scene.physics.reconstruction = reconstruction, scene.physics.formulation = formulation, scene.physics.upwind_metric = metric;
+  scene.physics.reconstruction = reconstruction;
+  scene.physics.formulation = formulation;
+  scene.physics.upwind_metric = metric;
   const Problem problem(scene);
   Simulation s = problem.start();
   std::mt19937_64 random(11);
@@ -267,20 +320,28 @@ double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation f
   for (int n : real_rows(s)) {
     for (int i = 0; i < 3; ++i) u.W[u.now][row::W * n + i] = 50 * uniform(random);
     u.W[u.now][row::W * n + 3] = 1e6 * uniform(random);
-    for (int m = 0; m < 9; ++m) u.PH[u.now][row::PH * n + 8 * (m / 3) + 4 + m % 3] = (m % 4 == 0) + 0.4 * uniform(random);
+    for (int m = 0; m < 9; ++m)
+      u.PH[u.now][row::PH * n + 8 * (m / 3) + 4 + m % 3] = (m % 4 == 0) + 0.4 * uniform(random);
   }
   Aligned<double> G(row::G * s.order.rows, 0.0);
   Rows rows{};
-  rows.X = u.X.data(), rows.W = u.W[u.now].data(), rows.PH = u.PH[u.now].data(), rows.G = G.data();
-  for (const Part& part : s.order.parts) s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+  rows.X = u.X.data();
+  rows.W = u.W[u.now].data();
+  rows.PH = u.PH[u.now].data();
+  rows.G = G.data();
+  for (const Part& part : s.order.parts)
+    s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
   const PartFunctions audited = find_part_functions(scene.physics, scene.material, Materials::one, true);
   double least = 1e300;
   total = 0;
   for (int e = 0; e < s.order.out.back(); ++e) {
     Part one{};
-    one.edge_begin = e, one.edge_end = e + 1;
-    const double power = audited.edge_flux(one, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients, scratch_of(s, 0));
-    least = std::min(least, power), total += power;
+    one.edge_begin = e;
+    one.edge_end = e + 1;
+    const double power = audited.edge_flux(one, s.order.edges(), s.order.corners(), s.order.lists(), rows,
+                                           s.coefficients, scratch_of(s, 0));
+    least = std::min(least, power);
+    total += power;
   }
   return least / total;
 }
@@ -289,7 +350,8 @@ TEST(Entropy, EveryEdgeDissipatesWithConstantReconstruction) {
   for (auto formulation : formulations)
     for (auto metric : {UpwindMetric::deformed, UpwindMetric::paper}) {
       double total = 0;
-      EXPECT_GE(least_dissipation_of_an_edge(Reconstruction::constant, formulation, metric, total), 0.0) << word(formulation) << ' ' << word(metric);
+      EXPECT_GE(least_dissipation_of_an_edge(Reconstruction::constant, formulation, metric, total), 0.0)
+          << word(formulation) << ' ' << word(metric);
       EXPECT_GT(total, 0.0);
     }
 }
@@ -298,7 +360,8 @@ TEST(Entropy, EveryEdgeDissipatesWithConstantReconstruction) {
 TEST(Entropy, SomeEdgesProduceWithLinearReconstructionButNotTheirSum) {
   for (auto formulation : formulations) {
     double total = 0;
-    EXPECT_LT(least_dissipation_of_an_edge(Reconstruction::linear, formulation, UpwindMetric::deformed, total), 0.0) << word(formulation);
+    EXPECT_LT(least_dissipation_of_an_edge(Reconstruction::linear, formulation, UpwindMetric::deformed, total), 0.0)
+        << word(formulation);
     EXPECT_GT(total, 0.0);
   }
 }
@@ -307,7 +370,8 @@ TEST(Entropy, EveryStepOfARunDissipates) {
   for (AuditCase c : audit_cases())
     for (auto formulation : formulations)
       for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear}) {
-        c.scene.physics.formulation = formulation, c.scene.physics.reconstruction = reconstruction;
+        c.scene.physics.formulation = formulation;
+        c.scene.physics.reconstruction = reconstruction;
         EXPECT_GT(audit(c.scene).least_dissipation, 0.0) << c.what << ' ' << name(c.scene.physics);
       }
 }

@@ -10,27 +10,36 @@ namespace {
 
 /// Worst of all steps.
 struct Worst {
-  double least = 1e300, least_sum = 1e300, negative_share = 0;   // [W] [W] [-]
-  double largest_sum = 0;                                        // [W]
+  double least = 1e300, least_sum = 1e300, negative_share = 0;  // [W] [W] [-]
+  double largest_sum = 0;                                       // [W]
 };
 
 Worst entropy_of(Reconstruction reconstruction, EntropyFix fix) {
   Scene scene = column(3);
-  scene.mesh.size[2] = 3, scene.mesh.cells[2] = 9, scene.mesh.perturb = 0.2, scene.initial.height = 3, scene.time.end = 0.02;
-  scene.physics.reconstruction = reconstruction, scene.physics.entropy_fix = fix;
+  scene.mesh.size[2] = 3;
+  scene.mesh.cells[2] = 9;
+  scene.mesh.perturb = 0.2;
+  scene.initial.height = 3;
+  scene.time.end = 0.02;
+  scene.physics.reconstruction = reconstruction;
+  scene.physics.entropy_fix = fix;
   const Problem problem(scene);
   Simulation s = problem.start();
   Worst w;
   Observer observer;
   observer.on_step = [&](const Simulation&) {
     const EntropyProduction e = entropy_production(s);
-    w.least = std::min(w.least, e.least), w.least_sum = std::min(w.least_sum, e.total), w.largest_sum = std::max(w.largest_sum, e.total);
+    w.least = std::min(w.least, e.least);
+    w.least_sum = std::min(w.least_sum, e.total);
+    w.largest_sum = std::max(w.largest_sum, e.total);
     w.negative_share = std::max(w.negative_share, e.negative_share);
   };
   std::string reason;
   EXPECT_EQ(run(s, observer, reason), "done") << reason;
-  testing::Test::RecordProperty(fmt::format("{}_{}", word(reconstruction), word(fix)),
-                                fmt::format("least {:.2e} of {:.2e} W, least sum {:.2e} W, share of negative edges {:.3f}", w.least, w.largest_sum, w.least_sum, w.negative_share));
+  testing::Test::RecordProperty(
+      fmt::format("{}_{}", word(reconstruction), word(fix)),
+      fmt::format("least {:.2e} of {:.2e} W, least sum {:.2e} W, share of negative edges {:.3f}", w.least,
+                  w.largest_sum, w.least_sum, w.negative_share));
   return w;
 }
 
@@ -62,11 +71,13 @@ TEST(EntropyProduction, OfLinearReconstructionIsNegativeOnSomeEdgesButNotInSum) 
 TEST(EntropyProduction, IsTheDissipationOfTheAuditAndChangesNoBit) {
   for (auto correction : corrections) {
     Scene scene = loaded_bar(9);
-    scene.monitor.energy = true, scene.physics.flux_correction = correction;
+    scene.monitor.energy = true;
+    scene.physics.flux_correction = correction;
     const Problem problem(scene);
     Simulation s = problem.start(2), unseen = problem.start(2);
     ASSERT_GE(s.order.parts.size(), 2u);
-    march(s, 2), march(unseen, 2);
+    march(s, 2);
+    march(unseen, 2);
     const EntropyProduction e = entropy_production(s);
     EXPECT_EQ(e.total, entropy_production(s).total);
     Simulation one = problem.start(1);
@@ -74,13 +85,15 @@ TEST(EntropyProduction, IsTheDissipationOfTheAuditAndChangesNoBit) {
     EXPECT_EQ(e.total, entropy_production(one).total);
     EXPECT_EQ(e.least, entropy_production(one).least);
     EXPECT_NEAR(dissipated_power(s) / e.total, 1, 1e-12);
-    march(s, 2), march(unseen, 2);
+    march(s, 2);
+    march(unseen, 2);
     EXPECT_EQ(state_hash(s), state_hash(unseen));
     EXPECT_EQ(s.ledger.dissipated, unseen.ledger.dissipated);
     double ours[9], theirs[9];
     entropy_production(s);
     for (int n = 0; n < s.order.nodes; ++n) {
-      field_at(s, "P", n, ours), field_at(unseen, "P", n, theirs);
+      field_at(s, "P", n, ours);
+      field_at(unseen, "P", n, theirs);
       for (int k = 0; k < 9; ++k) EXPECT_EQ(ours[k], theirs[k]);
     }
   }

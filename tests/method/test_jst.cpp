@@ -28,7 +28,8 @@ TEST(Jst, PseudoLaplacianOfLinearFieldsIsZeroOnAnIrregularMesh) {
   Rows rows = stage_rows(s.state, 0, 0);
   rows.W = W.data();
   const auto largest = [&] {
-    for (const Part& part : s.order.parts) s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+    for (const Part& part : s.order.parts)
+      s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
     double worst = 0;
     for (int n : real_rows(s))
       for (int i = 0; i < 4; ++i) worst = std::max(worst, std::abs(s.state.L[row::L * n + i]));
@@ -51,7 +52,9 @@ TEST(Jst, ErrorsOnTheCubeAreThoseOfThePrototypeAndBehindUpwinds) {
   };
   for (const Figures& f : {Figures{12, 89.1, 103}, Figures{24, 26.9, 28.0}}) {
     const auto jst = cube_errors(f.n, Stabilisation::jst), upwind = cube_errors(f.n, Stabilisation::upwind);
-    RecordProperty(fmt::format("n_{}", f.n), fmt::format("jst {:.2f} {:.2f}, upwind {:.2f} {:.2f}", 1e4 * jst.at("p1_L1"), 1e4 * jst.at("p1_L2"), 1e4 * upwind.at("p1_L1"), 1e4 * upwind.at("p1_L2")));
+    RecordProperty(fmt::format("n_{}", f.n),
+                   fmt::format("jst {:.2f} {:.2f}, upwind {:.2f} {:.2f}", 1e4 * jst.at("p1_L1"), 1e4 * jst.at("p1_L2"),
+                               1e4 * upwind.at("p1_L1"), 1e4 * upwind.at("p1_L2")));
     EXPECT_NEAR(1e4 * jst.at("p1_L1") / f.L1, 1, 0.04) << f.n;
     EXPECT_NEAR(1e4 * jst.at("p1_L2") / f.L2, 1, 0.04) << f.n;
     EXPECT_LT(upwind.at("p1_L1"), jst.at("p1_L1")) << f.n;

@@ -9,14 +9,16 @@ namespace {
 using enum FluxCorrection;
 
 Problem corrected(Scene scene, FluxCorrection correction, Formulation formulation = Formulation::pFJ) {
-  scene.physics.flux_correction = correction, scene.physics.formulation = formulation;
+  scene.physics.flux_correction = correction;
+  scene.physics.formulation = formulation;
   return Problem(scene);
 }
 
 /// The same state with nothing from a step before.
 Simulation fresh(const Problem& problem, Simulation& s) {
   Simulation same = problem.start();
-  same.state.U[0] = s.state.U[0], same.state.H[0] = s.state.H[0];
+  same.state.U[0] = s.state.U[0];
+  same.state.H[0] = s.state.H[0];
   adopt_state(same);
   return same;
 }
@@ -27,20 +29,28 @@ TEST(LaggedCorrection, IsThatOfTheVelocityGradientInTheLastStage) {
     Simulation s = problem.start();
     march(s, 3);
     ASSERT_TRUE(s.state.has_lagged_correction);
-    const auto G = [&](int n, int i, int K) { return s.state.G[row::G * static_cast<std::size_t>(s.order.row_of[n]) + 4 * K + i]; };  // still that of the last stage
+    const auto G = [&](int n, int i, int K) {
+      return s.state.G[row::G * static_cast<std::size_t>(s.order.row_of[n]) + 4 * K + i];
+    };  // still that of the last stage
     std::vector<Tensor<double>> dG(problem.mesh.X.size());
     for (const DualEdge& e : make_dual(problem.mesh).edges)
       for (int i = 0; i < 3; ++i) {
         double q = 0;
-        for (int K = 0; K < 3; ++K) q += (G(e.a, i, K) - G(e.b, i, K)) * (problem.mesh.X[e.b][K] - problem.mesh.X[e.a][K]) / 6;  // theta/4, theta = 2/3
-        for (int I = 0; I < 3; ++I) dG[e.a][i][I] += q * e.C[I] / s.volume[e.a], dG[e.b][i][I] -= q * e.C[I] / s.volume[e.b];
+        for (int K = 0; K < 3; ++K)
+          q += (G(e.a, i, K) - G(e.b, i, K)) * (problem.mesh.X[e.b][K] - problem.mesh.X[e.a][K])
+               / 6;  // theta/4, theta = 2/3
+        for (int I = 0; I < 3; ++I) {
+          dG[e.a][i][I] += q * e.C[I] / s.volume[e.a];
+          dG[e.b][i][I] -= q * e.C[I] / s.volume[e.b];
+        }
       }
     double largest = 0;
     for (const auto& g : dG)
       for (int m = 0; m < 9; ++m) largest = std::max(largest, std::abs(g[m / 3][m % 3]));
     for (int n = 0; n < s.order.nodes; ++n)
       for (int m = 0; m < 9; ++m)
-        EXPECT_NEAR(s.state.U[1][row::U * static_cast<std::size_t>(s.order.row_of[n]) + 4 * (m / 3) + m % 3], dG[n][m % 3][m / 3], 1e-13 * largest);
+        EXPECT_NEAR(s.state.U[1][row::U * static_cast<std::size_t>(s.order.row_of[n]) + 4 * (m / 3) + m % 3],
+                    dG[n][m % 3][m / 3], 1e-13 * largest);
   }
 }
 
@@ -58,7 +68,8 @@ TEST(LaggedCorrection, StandsInTheStressRowsButNotInWhatIsWritten) {
       of_rows = std::max(of_rows, std::abs(s.state.PH[s.state.now][r] - plain.state.PH[plain.state.now][r]));
       for (const char* name : {"P", "pressure", "von_mises"}) {
         double ours[9] = {}, theirs[9] = {};
-        field_at(s, name, n, ours), field_at(plain, name, n, theirs);
+        field_at(s, name, n, ours);
+        field_at(plain, name, n, theirs);
         for (int k = 0; k < 9; ++k) EXPECT_NEAR(ours[k], theirs[k], 1e-11 * s.coefficients.material.kappa) << name;
       }
     }
@@ -94,12 +105,16 @@ TEST(LaggedCorrection, ChangesTheResultBySecondOrderOfTheStep) {
           if (correction == full && i > 0) {  // the stress without the correction, as a stage that finds it reads it
             State& u = found.state;
             for (int r : real_rows(found))
-              for (int m = 0; m < 9; ++m) u.PH[u.now][row::PH * r + 8 * (m / 3) + m % 3] -= u.dP[row::dP * r + 4 * (m / 3) + m % 3];
+              for (int m = 0; m < 9; ++m)
+                u.PH[u.now][row::PH * r + 8 * (m / 3) + m % 3] -= u.dP[row::dP * r + 4 * (m / 3) + m % 3];
           }
-          advance(lagged), advance(found);
+          advance(lagged);
+          advance(found);
         }
         change[k] = 0;
-        for (std::size_t i = 0; i < lagged.state.U[0].size(); ++i) change[k] = std::max(change[k], std::abs(lagged.state.U[0][i] - found.state.U[0][i]) / (i % row::U < 3 ? 100 : 1));
+        for (std::size_t i = 0; i < lagged.state.U[0].size(); ++i)
+          change[k] = std::max(change[k],
+                               std::abs(lagged.state.U[0][i] - found.state.U[0][i]) / (i % row::U < 3 ? 100 : 1));
       }
       EXPECT_GT(change[0], 1e-9);
       EXPECT_GT(std::log2(change[0] / change[1]), 1.8) << name(problem.scene.physics);

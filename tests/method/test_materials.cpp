@@ -16,7 +16,8 @@ MaterialSpec in_region(MaterialSpec m, const std::string& region) {
 /// A bar of two materials; the tets above and below a rough surface, so that an interface node sees any share of either.
 struct TwoMaterials : Problem {
   static Scene scene_of(Scene s, const MaterialSpec& low, const MaterialSpec& high) {
-    s.materials = {in_region(low, "low"), in_region(high, "high")}, s.material = s.materials[0];
+    s.materials = {in_region(low, "low"), in_region(high, "high")};
+    s.material = s.materials[0];
     return s;
   }
   static Mesh mesh_with_regions(const Scene& s) {
@@ -30,12 +31,14 @@ struct TwoMaterials : Problem {
     }
     return mesh_of(std::move(raw));
   }
-  TwoMaterials(const Scene& s, const MaterialSpec& low, const MaterialSpec& high) : Problem(scene_of(s, low, high), mesh_with_regions(s)) {}
+  TwoMaterials(const Scene& s, const MaterialSpec& low, const MaterialSpec& high)
+      : Problem(scene_of(s, low, high), mesh_with_regions(s)) {}
 };
 
 MaterialSpec rubber() { return free_bar(1).material; }
 MaterialSpec times(MaterialSpec m, double density, double stiffness) {
-  m.density *= density, m.youngs_modulus *= stiffness;
+  m.density *= density;
+  m.youngs_modulus *= stiffness;
   return m;
 }
 
@@ -44,7 +47,8 @@ std::vector<PhysicsSpec> physics_for_several() {
   for (auto formulation : {Formulation::pF, Formulation::pFJ})
     for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear}) {
       PhysicsSpec p;
-      p.formulation = formulation, p.reconstruction = reconstruction;
+      p.formulation = formulation;
+      p.reconstruction = reconstruction;
       all.push_back(p);
     }
   return all;
@@ -55,7 +59,8 @@ TEST(Materials, MassIsThatOfTheRegions) {
   double volume[2]{};
   for (std::size_t t = 0; t < two.mesh.tets.size(); ++t) {
     const auto& n = two.mesh.tets[t];
-    volume[two.mesh.tet_region[t]] += tet_volume(two.mesh.X[n[0]], two.mesh.X[n[1]], two.mesh.X[n[2]], two.mesh.X[n[3]]);
+    volume[two.mesh.tet_region[t]] += tet_volume(two.mesh.X[n[0]], two.mesh.X[n[1]], two.mesh.X[n[2]],
+                                                 two.mesh.X[n[3]]);
   }
   EXPECT_GT(volume[0], 0.5);
   EXPECT_GT(volume[1], 0.5);
@@ -79,21 +84,27 @@ TEST(Materials, InterfaceNodesExist) {
 
 TEST(Materials, EqualOnesAreOneMaterial) {
   MaterialSpec plastic = rubber();
-  plastic.law = Law::hencky_j2, plastic.yield_stress = 1e12;  // never flows
+  plastic.law = Law::hencky_j2;  // never flows
+  plastic.yield_stress = 1e12;
   for (const MaterialSpec& law : {rubber(), plastic})
     for (const PhysicsSpec& p : physics_for_several()) {
       Scene scene = loaded_bar(4);
-      scene.physics = p, scene.material = law;
+      scene.physics = p;
+      scene.material = law;
       const TwoMaterials two(scene, law, law);
       const Problem one(scene, two.mesh);
       Simulation a = one.start(), b = two.start();
       EXPECT_NEAR(a.ledger.initial_energy, b.ledger.initial_energy, 1e-13 * a.ledger.initial_energy);
       const double dt = allowed_step(a);
       EXPECT_NEAR(allowed_step(b), dt, 1e-13 * dt);
-      march(a, dt, 40), march(b, dt, 40);
+      march(a, dt, 40);
+      march(b, dt, 40);
       double worst = 0, v = 0;
       for (int n = 0; n < a.order.nodes; ++n)
-        for (int k = 0; k < row::U; ++k) worst = std::max(worst, std::abs(U_of(a, n)[k] - U_of(b, n)[k]) / (k < 3 ? 100 : 1)), v = std::max(v, std::abs(U_of(a, n)[0]));
+        for (int k = 0; k < row::U; ++k) {
+          worst = std::max(worst, std::abs(U_of(a, n)[k] - U_of(b, n)[k]) / (k < 3 ? 100 : 1));
+          v = std::max(v, std::abs(U_of(a, n)[0]));
+        }
       EXPECT_LE(worst, 1e-12) << name(p);
       EXPECT_GT(v, 1) << name(p);
       EXPECT_NEAR(energies(a).strain, energies(b).strain, 1e-11 * a.ledger.initial_energy);
@@ -110,7 +121,8 @@ TEST(Materials, BitwiseForAnyThreadCount) {
     Simulation s = two.start(threads);
     EXPECT_GT(s.order.parts.size(), 1u);
     march(s, 10);
-    hashes.push_back(state_hash(s)), dissipated.push_back(s.ledger.dissipated);
+    hashes.push_back(state_hash(s));
+    dissipated.push_back(s.ledger.dissipated);
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
@@ -126,7 +138,9 @@ TEST(Materials, EnergyNeverGrowsAcrossAThousandfoldJump) {
   for (const Jump& j : {Jump{1, 1000}, Jump{1, 1e-3}, Jump{1000, 1}, Jump{1e-3, 1}, Jump{1000, 1e-3}})
     for (const PhysicsSpec& p : physics_for_several()) {
       Scene scene = free_bar(4);
-      scene.physics = p, scene.monitor.energy = true, scene.initial.twist_omega = 5;
+      scene.physics = p;
+      scene.monitor.energy = true;
+      scene.initial.twist_omega = 5;
       const TwoMaterials two(scene, rubber(), times(rubber(), j.density, j.stiffness));
       Simulation s = two.start();
       double largest = 0, before = s.ledger.initial_energy, grown = 0;
@@ -135,7 +149,8 @@ TEST(Materials, EnergyNeverGrowsAcrossAThousandfoldJump) {
         if (i % 10 != 9) continue;
         const Energies e = energies(s);
         largest = std::max(largest, (e.kinetic + e.strain) / s.ledger.initial_energy);
-        grown = std::max(grown, (e.kinetic + e.strain) / before - 1), before = e.kinetic + e.strain;
+        grown = std::max(grown, (e.kinetic + e.strain) / before - 1);
+        before = e.kinetic + e.strain;
       }
       EXPECT_FALSE(s.breakdown) << name(p) << " " << j.density << " " << j.stiffness << s.breakdown->text;
       EXPECT_LE(grown, 1e-6) << name(p) << " " << j.density << " " << j.stiffness;
@@ -162,7 +177,9 @@ TEST(Materials, AuditClosesWithTheStep) {
 
 TEST(Materials, PlasticBesideElastic) {
   MaterialSpec plastic = rubber();
-  plastic.law = Law::hencky_j2, plastic.yield_stress = 5e5, plastic.hardening_modulus = 1e6;
+  plastic.law = Law::hencky_j2;
+  plastic.yield_stress = 5e5;
+  plastic.hardening_modulus = 1e6;
   Scene scene = free_bar(4);
   scene.monitor.energy = true;
   const TwoMaterials two(scene, times(rubber(), 1, 3), plastic);
@@ -184,7 +201,8 @@ TEST(Materials, PlasticBesideElastic) {
 
 TEST(Materials, CentreOfMassIsWeighted) {
   Scene scene = free_bar(3);
-  scene.initial.field = InitialField::rotation, scene.initial.omega = {1, 2, 3};
+  scene.initial.field = InitialField::rotation;
+  scene.initial.omega = {1, 2, 3};
   const TwoMaterials two(scene, rubber(), times(rubber(), 9, 1));
   Simulation s = two.start();
   const Momenta m = momenta(s);
@@ -205,7 +223,8 @@ TEST(Materials, ThePressureJumpsBetweenThemWithoutBeingTakenForACheckerboard) {
     for (int n = 0; n < s.order.rows; ++n) {
       const std::size_t r = static_cast<std::size_t>(n);
       const double *X = &s.state.X[row::X * r], stiff = s.mixture.share[1][r], sign = random() % 2 ? 1 : -1;
-      s.state.W[s.state.now][row::W * r + 3] = (1 - stiff) * (1 + X[0] - 2 * X[2]) + stiff * (1000 + 300 * X[1] + 50 * X[2]) + noise * sign;
+      s.state.W[s.state.now][row::W * r + 3] = (1 - stiff) * (1 + X[0] - 2 * X[2])
+                                               + stiff * (1000 + 300 * X[1] + 50 * X[2]) + noise * sign;
     }
   };
   set_pressure(0);

@@ -15,7 +15,9 @@ std::vector<std::string> names(const Simulation& s) {
   return out;
 }
 
-bool has(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
+bool has(const std::vector<std::string>& list, const std::string& name) {
+  return std::find(list.begin(), list.end(), name) != list.end();
+}
 
 TEST(Monitors, GiveTheirColumnsOnlyWhenAskedFor) {
   Scene scene = free_bar(2);
@@ -27,7 +29,8 @@ TEST(Monitors, GiveTheirColumnsOnlyWhenAskedFor) {
   Simulation s = problem.start();
   march(s, 2);
   const auto columns = names(s);
-  for (const char* name : {"entropy_min", "entropy_sum", "entropy_negative_share", "involution_F", "involution_H", "involution_J", "min_tet_ratio", "min_detF_over_J", "max_detF_over_J"})
+  for (const char* name : {"entropy_min", "entropy_sum", "entropy_negative_share", "involution_F", "involution_H",
+                           "involution_J", "min_tet_ratio", "min_detF_over_J", "max_detF_over_J"})
     EXPECT_TRUE(has(columns, name)) << name;
   EXPECT_EQ(columns.size(), without + 9);
   EXPECT_EQ(history_row(s, {}).size(), columns.size());
@@ -44,7 +47,9 @@ TEST(Involutions, FStaysTheGradientOfXUnlessAFluxCorrectionChangesIt) {
     for (auto correction : {FluxCorrection::none, FluxCorrection::full}) {
       if (formulation == Formulation::pFHJ && correction == FluxCorrection::full) continue;
       Scene scene = loaded_bar(3);
-      scene.physics.formulation = formulation, scene.physics.flux_correction = correction, scene.monitor.involutions = true;
+      scene.physics.formulation = formulation;
+      scene.physics.flux_correction = correction;
+      scene.monitor.involutions = true;
       const Problem problem(scene);
       Simulation s = problem.start();
       Involutions i = involutions(s);
@@ -64,7 +69,8 @@ TEST(Involutions, FStaysTheGradientOfXUnlessAFluxCorrectionChangesIt) {
 
 TEST(Involutions, OfAFieldWrittenByHandAreItsDefects) {
   Scene scene = free_bar(3);
-  scene.physics.formulation = Formulation::pFHJ, scene.monitor.involutions = true;
+  scene.physics.formulation = Formulation::pFHJ;
+  scene.monitor.involutions = true;
   const Problem problem(scene);
   Simulation s = problem.start();
   deform(s, {{{1.2, 0.1, 0}, {0, 0.9, 0.2}, {0.05, 0, 1.1}}});

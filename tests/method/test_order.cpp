@@ -21,7 +21,9 @@ struct CubeCase {
 
 std::map<std::string, double> cube_errors(const CubeCase& c) {
   Scene scene = cube(c.n, c.split);
-  scene.physics.formulation = c.formulation, scene.physics.flux_correction = c.correction, scene.initial.J = c.J;
+  scene.physics.formulation = c.formulation;
+  scene.physics.flux_correction = c.correction;
+  scene.initial.J = c.J;
   const Problem problem(scene);
   Simulation s = problem.start();
   EXPECT_EQ(run_quietly(s), "done");
@@ -31,13 +33,17 @@ std::map<std::string, double> cube_errors(const CubeCase& c) {
 
 TEST(Errors, HaveTheNamesThatStudiesMayAskFor) {
   std::vector<std::string> names;
-  for (const auto& [name, value] : cube_errors({Split::kuhn, Formulation::pFJ, FluxCorrection::none, InitialJ::linear, 2})) names.push_back(name);
+  for (const auto& [name, value] :
+       cube_errors({Split::kuhn, Formulation::pFJ, FluxCorrection::none, InitialJ::linear, 2}))
+    names.push_back(name);
   std::vector<std::string> known(error_names.begin(), error_names.end());
   std::sort(known.begin(), known.end());
   EXPECT_EQ(names, known);
 }
 
-std::string label(const CubeCase& c) { return fmt::format("{}_{}_{}_{}_{}", word(c.split), word(c.formulation), word(c.correction), word(c.J), c.n); }
+std::string label(const CubeCase& c) {
+  return fmt::format("{}_{}_{}_{}_{}", word(c.split), word(c.formulation), word(c.correction), word(c.J), c.n);
+}
 
 /// L1 and L2 errors of p1 and P11 relative to the exact field at t [1e-4]: method.md, sections 13 and 14. A negative figure is not known.
 struct Figures {
@@ -65,9 +71,13 @@ constexpr Figures prototype[] = {
 TEST(CubeOrder, ErrorsAreThoseOfThePrototype) {
   for (const Figures& f : prototype) {
     const auto e = cube_errors(f.cube);
-    RecordProperty(label(f.cube), fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", 1e4 * e.at("p1_L1"), 1e4 * e.at("p1_L2"), 1e4 * e.at("P11_L1"), 1e4 * e.at("P11_L2")));
-    const std::pair<const char*, double> figures[] = {{"p1_L1", f.p1_L1}, {"p1_L2", f.p1_L2}, {"P11_L1", f.P11_L1}, {"P11_L2", f.P11_L2}};
-    for (const auto& [key, wanted] : figures) EXPECT_TRUE(wanted < 0 || std::abs(1e4 * e.at(key) / wanted - 1) < 0.04) << label(f.cube) << ' ' << key << " = " << e.at(key);
+    RecordProperty(label(f.cube), fmt::format("{:.2f} {:.2f} {:.2f} {:.2f}", 1e4 * e.at("p1_L1"), 1e4 * e.at("p1_L2"),
+                                              1e4 * e.at("P11_L1"), 1e4 * e.at("P11_L2")));
+    const std::pair<const char*, double> figures[] = {
+        {"p1_L1", f.p1_L1}, {"p1_L2", f.p1_L2}, {"P11_L1", f.P11_L1}, {"P11_L2", f.P11_L2}};
+    for (const auto& [key, wanted] : figures)
+      EXPECT_TRUE(wanted < 0 || std::abs(1e4 * e.at(key) / wanted - 1) < 0.04)
+          << label(f.cube) << ' ' << key << " = " << e.at(key);
   }
 }
 
@@ -77,9 +87,15 @@ struct Rate {
   double p1, P11;
 };
 constexpr Rate least_rates[] = {
-    {{kuhn, pF, none, det, 6}, 1.9, 1.9},         {{kuhn, pF, none, det, 12}, 1.8, 1.85},       {{kuhn, pFJ, none, det, 6}, 2.2, 2.0},
-    {{kuhn, pFJ, none, det, 12}, 1.8, 1.95},      {{kuhn, pFHJ, none, det, 12}, 1.8, 1.95},     {{kuhn, pFJ, full, linear, 12}, 2.3, 2.1},
-    {{alternating, pFJ, none, linear, 12}, 2.0, 1.85}, {{alternating, pFJ, pressure, linear, 12}, 2.6, 1.9}, {{alternating, pFJ, full, linear, 12}, 2.7, 1.9},
+    {{kuhn, pF, none, det, 6}, 1.9, 1.9},
+    {{kuhn, pF, none, det, 12}, 1.8, 1.85},
+    {{kuhn, pFJ, none, det, 6}, 2.2, 2.0},
+    {{kuhn, pFJ, none, det, 12}, 1.8, 1.95},
+    {{kuhn, pFHJ, none, det, 12}, 1.8, 1.95},
+    {{kuhn, pFJ, full, linear, 12}, 2.3, 2.1},
+    {{alternating, pFJ, none, linear, 12}, 2.0, 1.85},
+    {{alternating, pFJ, pressure, linear, 12}, 2.6, 1.9},
+    {{alternating, pFJ, full, linear, 12}, 2.7, 1.9},
 };
 
 TEST(CubeOrder, ErrorsFallAtLeastAtTheseRates) {
@@ -102,7 +118,8 @@ TEST(CubeOrder, WithLinearElasticityNothingReadsTheEvolvedH) {
 /// Largest difference between two states of one problem; velocities in 100 m/s.
 double difference(const Simulation& a, const Simulation& b) {
   double worst = 0;
-  for (std::size_t i = 0; i < a.state.U[0].size(); ++i) worst = std::max(worst, std::abs(a.state.U[0][i] - b.state.U[0][i]) / (i % row::U < 3 ? 100 : 1));
+  for (std::size_t i = 0; i < a.state.U[0].size(); ++i)
+    worst = std::max(worst, std::abs(a.state.U[0][i] - b.state.U[0][i]) / (i % row::U < 3 ? 100 : 1));
   return worst;
 }
 
@@ -115,7 +132,8 @@ double order_in_time(Scene scene, Integrator integrator) {
     const Problem problem(scene);
     Simulation s = problem.start();
     march(s, end / (steps * refinement), steps * refinement);
-    s.scene = nullptr, s.mesh = nullptr;
+    s.scene = nullptr;
+    s.mesh = nullptr;
     return s;
   };
   const Simulation reference = solve(Integrator::ssp_rk3, 64);
@@ -134,15 +152,21 @@ struct TimeCase {
 
 TEST(TimeOrder, IsTwoForTvdRk2AndThreeForSspRk3) {
   constexpr auto rk2 = Integrator::tvd_rk2, rk3 = Integrator::ssp_rk3;
-  for (const TimeCase& c : {TimeCase{"free_rk2", false, false, rk2, 1.85}, {"free_rk3", false, false, rk3, 2.8}, {"loaded_rk2", true, false, rk2, 1.85},
-                            {"loaded_rk3", true, false, rk3, 2.75}, {"driven_rk2", true, true, rk2, 1.85}, {"driven_rk3", true, true, rk3, 1.9}})
+  for (const TimeCase& c : {TimeCase{"free_rk2", false, false, rk2, 1.85},
+                            {"free_rk3", false, false, rk3, 2.8},
+                            {"loaded_rk2", true, false, rk2, 1.85},
+                            {"loaded_rk3", true, false, rk3, 2.75},
+                            {"driven_rk2", true, true, rk2, 1.85},
+                            {"driven_rk3", true, true, rk3, 1.9}})
     for (auto formulation : formulations)
       for (auto correction : corrections) {
         Scene scene = c.loads ? loaded_bar(3) : free_bar(3);
         if (c.loads && !c.prescribed_velocity) scene.boundary.pop_back();
-        scene.physics.formulation = formulation, scene.physics.flux_correction = correction;
+        scene.physics.formulation = formulation;
+        scene.physics.flux_correction = correction;
         const double order = order_in_time(scene, c.integrator);
-        RecordProperty(fmt::format("{}_{}_{}", c.what, word(formulation), word(correction)), fmt::format("{:.2f}", order));
+        RecordProperty(fmt::format("{}_{}_{}", c.what, word(formulation), word(correction)),
+                       fmt::format("{:.2f}", order));
         EXPECT_GT(order, c.least) << c.what << ' ' << name(scene.physics);
       }
 }

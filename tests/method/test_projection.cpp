@@ -10,7 +10,8 @@ namespace nanson::method {
 namespace {
 
 Scene incompressible(Scene scene, double nu = 0.5) {
-  scene.physics.formulation = Formulation::pFp, scene.material.poissons_ratio = nu;
+  scene.physics.formulation = Formulation::pFp;
+  scene.material.poissons_ratio = nu;
   return scene;
 }
 
@@ -28,9 +29,11 @@ struct Operators {
     adopt_state(s);
     s.projection.coefficients.dt = 1e-3;
     rows = projection_rows(s, 0, 1);
-    for (const Part& part : s.projection.parts) projection_edges_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients);
+    for (const Part& part : s.projection.parts)
+      projection_edges_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients);
     s.state.U[1] = s.state.U[0];
-    for (const Part& part : s.projection.parts) projection_start_part(part, s.order.edges(), s.order.lists(), rows, s.projection.coefficients);
+    for (const Part& part : s.projection.parts)
+      projection_start_part(part, s.order.edges(), s.order.lists(), rows, s.projection.coefficients);
   }
   std::vector<double> field(int count) {
     std::normal_distribution<double> normal;
@@ -43,10 +46,13 @@ struct Operators {
   void force(const std::vector<double>& q) {
     std::copy(q.begin(), q.end(), s.projection.d.begin());
     for (const Part& part : s.projection.parts)
-      pressure_force_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients, 0, s.projection.coefficients.dt);
+      pressure_force_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients, 0,
+                          s.projection.coefficients.dt);
   }
   const Aligned<double>& apply() {
-    for (const Part& part : s.projection.parts) pressure_operator_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients);
+    for (const Part& part : s.projection.parts)
+      pressure_operator_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows,
+                             s.projection.coefficients);
     return s.projection.Kd;
   }
 };
@@ -58,8 +64,10 @@ TEST(Projection, DivergenceAndPressureForceAreAdjoint) {
   double vf = 0, qD = 0, size = 0;
   for (int n : real_rows(o.s))
     for (int k = 0; k < 3; ++k) {
-      const double mass = 1100 / o.s.state.X[row::X * n + 3], f = mass / o.s.projection.coefficients.dt * o.s.projection.V[row::V * n + k];
-      vf += v[3 * n + k] * f, size += std::abs(v[3 * n + k] * f);
+      const double mass = 1100 / o.s.state.X[row::X * n + 3],
+                   f = mass / o.s.projection.coefficients.dt * o.s.projection.V[row::V * n + k];
+      vf += v[3 * n + k] * f;
+      size += std::abs(v[3 * n + k] * f);
     }
   std::fill(o.s.projection.d.begin(), o.s.projection.d.end(), 0.0);
   for (int n = 0; n < o.s.order.rows; ++n)
@@ -95,8 +103,11 @@ TEST(Projection, DivergenceIsTheCofactorOnTheGreenGaussGradient) {
     for (int k = 0; k < 3; ++k) o.s.projection.V[row::V * n + k] = o.s.state.U[1][row::U * n + k] = v[3 * n + k];
   const auto& Kd = o.apply();
   for (const Part& part : o.s.projection.parts)
-    constraint_residual_part(part, o.s.order.edges(), o.s.order.corners(), o.s.order.lists(), o.rows, o.s.projection.coefficients);
-  for (int n : real_rows(o.s)) EXPECT_NEAR(o.s.projection.R[n] - o.s.projection.fixed[n], -Kd[n], 1e-13 * (1 + std::abs(Kd[n])));  // the same F, hence H, here
+    constraint_residual_part(part, o.s.order.edges(), o.s.order.corners(), o.s.order.lists(), o.rows,
+                             o.s.projection.coefficients);
+  for (int n : real_rows(o.s))
+    EXPECT_NEAR(o.s.projection.R[n] - o.s.projection.fixed[n], -Kd[n],
+                1e-13 * (1 + std::abs(Kd[n])));  // the same F, hence H, here
 }
 
 TEST(Projection, OperatorIsSymmetricAndPositiveWithSupports) {
@@ -108,7 +119,12 @@ TEST(Projection, OperatorIsSymmetricAndPositiveWithSupports) {
     o.force(y);
     const Aligned<double> Ky = o.apply();
     double xKy = 0, yKx = 0, xKx = 0, size = 0;
-    for (int n : real_rows(o.s)) xKy += x[n] * Ky[n], yKx += y[n] * Kx[n], xKx += x[n] * Kx[n], size += std::abs(x[n] * Ky[n]);
+    for (int n : real_rows(o.s)) {
+      xKy += x[n] * Ky[n];
+      yKx += y[n] * Kx[n];
+      xKx += x[n] * Kx[n];
+      size += std::abs(x[n] * Ky[n]);
+    }
     EXPECT_NEAR(xKy, yKx, 1e-13 * size) << nu;
     EXPECT_GT(xKx, 0) << nu;
   }
@@ -117,7 +133,8 @@ TEST(Projection, OperatorIsSymmetricAndPositiveWithSupports) {
 TEST(Projection, SupportsAndLoadsBalanceTheMomentum) {
   for (const auto solver : {ProjectionSolver::cg, ProjectionSolver::pseudo_time}) {
     Scene scene = incompressible(loaded_bar(3));
-    scene.projection.solver = solver, scene.projection.length_scale = 0.2;
+    scene.projection.solver = solver;
+    scene.projection.length_scale = 0.2;
     const Problem problem(scene);
     Simulation s = problem.start();
     march(s, 20);
@@ -133,18 +150,22 @@ TEST(Projection, SupportsAndLoadsBalanceTheMomentum) {
 TEST(Projection, ThreadsDoNotChangeABit) {
   for (const auto solver : {ProjectionSolver::cg, ProjectionSolver::pseudo_time}) {
     Scene scene = incompressible(column(6));
-    scene.projection.solver = solver, scene.projection.length_scale = 0.2;
+    scene.projection.solver = solver;
+    scene.projection.length_scale = 0.2;
     const Problem problem(scene);
     Simulation one = problem.start(1), two = problem.start(2);
     ASSERT_GT(one.order.parts.size(), 1u);
-    march(one, 3), march(two, 3);
+    march(one, 3);
+    march(two, 3);
     EXPECT_EQ(state_hash(one), state_hash(two));
   }
 }
 
 TEST(Projection, SolversAgree) {
   Scene scene = incompressible(column(3));
-  scene.time.end = 0.02, scene.projection.tolerance = 1e-6, scene.projection.length_scale = 0.2;
+  scene.time.end = 0.02;
+  scene.projection.tolerance = 1e-6;
+  scene.projection.length_scale = 0.2;
   const Problem cg(scene);
   scene.projection.solver = ProjectionSolver::pseudo_time;
   const Problem pseudo(scene);
@@ -157,14 +178,17 @@ TEST(Projection, SolversAgree) {
 
 TEST(Projection, ALimitThatIsMetStopsTheRunUnlessItOnlyWarns) {
   Scene scene = incompressible(column(3));
-  scene.time.end = 0.01, scene.projection.max_iterations = 1, scene.projection.tolerance = 1e-6;
+  scene.time.end = 0.01;
+  scene.projection.max_iterations = 1;
+  scene.projection.tolerance = 1e-6;
   const Problem strict(scene);
   scene.projection.on_limit = OnLimit::warn;
   const Problem lenient(scene);
   Simulation a = strict.start(), b = lenient.start();
   EXPECT_EQ(run_quietly(a), "breakdown");
   EXPECT_EQ(a.breakdown->cause, "iteration_limit");
-  EXPECT_NE(a.breakdown->text.find("projection.max_iterations = 1 in stage 1 of step 1"), std::string::npos) << a.breakdown->text;
+  EXPECT_NE(a.breakdown->text.find("projection.max_iterations = 1 in stage 1 of step 1"), std::string::npos)
+      << a.breakdown->text;
   EXPECT_EQ(run_quietly(b), "done");
   EXPECT_NE(b.warning.find("projection.max_iterations"), std::string::npos);
 }
@@ -198,7 +222,8 @@ Rest rest_under_gravity(const Scene& scene, double p_top, double z0) {
   for (int n = 0; n < s.order.nodes; ++n) {
     const double* U = U_of(s, n);
     worst.speed = std::max(worst.speed, std::hypot(U[0], U[1], U[2]) / (g * s.t));
-    worst.pressure = std::max(worst.pressure, std::abs(U[3] - p_top - rho_g * (problem.mesh.X[n][2] - z0)) / (rho_g * 2));
+    worst.pressure = std::max(worst.pressure,
+                              std::abs(U[3] - p_top - rho_g * (problem.mesh.X[n][2] - z0)) / (rho_g * 2));
   }
   return worst;
 }
@@ -217,11 +242,13 @@ TEST(Projection, HydrostaticPressureIsReachedUnderAFreeALoadedAndAPressedSurface
   const Rest open = rest_under_gravity(scene, 0, 2);
   EXPECT_LT(open.speed, 1e-4);
   EXPECT_LT(open.pressure, 2e-3);
-  scene.boundary.push_back(condition({"zmax"}, BoundaryKind::traction)), scene.boundary.back().traction = {0, 0, -5e3};
+  scene.boundary.push_back(condition({"zmax"}, BoundaryKind::traction));
+  scene.boundary.back().traction = {0, 0, -5e3};
   const Rest loaded = rest_under_gravity(scene, -5e3, 2);
   EXPECT_LT(loaded.speed, 1e-4);
   EXPECT_LT(loaded.pressure, 2e-3);
-  scene.boundary.back() = condition({"zmax"}, BoundaryKind::pressure), scene.boundary.back().pressure = 5e3;
+  scene.boundary.back() = condition({"zmax"}, BoundaryKind::pressure);
+  scene.boundary.back().pressure = 5e3;
   const Rest pressed = rest_under_gravity(scene, -5e3, 2);
   EXPECT_LT(pressed.speed, 1e-4);
   EXPECT_LT(pressed.pressure, 2e-3);
@@ -237,7 +264,10 @@ TEST(Projection, ClosedTubRestsWithTheMeanPressureZero) {
 
 TEST(Projection, VortexInAClosedBoxKeepsVolumeAndEnergyBalance) {
   Scene scene = incompressible(free_bar(8));
-  scene.mesh.origin = {0, 0, 0}, scene.mesh.size = {1, 1, 0.5}, scene.mesh.cells = {8, 8, 4}, scene.mesh.perturb = 0.1;
+  scene.mesh.origin = {0, 0, 0};
+  scene.mesh.size = {1, 1, 0.5};
+  scene.mesh.cells = {8, 8, 4};
+  scene.mesh.perturb = 0.1;
   scene.initial.field = InitialField::rest;
   scene.boundary = {condition({"xmin", "xmax", "ymin", "ymax", "zmin", "zmax"}, BoundaryKind::symmetric)};
   scene.monitor.energy = true;
@@ -247,13 +277,17 @@ TEST(Projection, VortexInAClosedBoxKeepsVolumeAndEnergyBalance) {
   constexpr double pi = 3.14159265358979323846;
   for (int n = 0; n < s.order.nodes; ++n) {  // divergence-free and tangential at the walls
     const Vec3& X = problem.mesh.X[n];
-    U_of(s, n)[0] = 20 * std::sin(pi * X[0]) * std::cos(pi * X[1]), U_of(s, n)[1] = -20 * std::cos(pi * X[0]) * std::sin(pi * X[1]);
+    U_of(s, n)[0] = 20 * std::sin(pi * X[0]) * std::cos(pi * X[1]);
+    U_of(s, n)[1] = -20 * std::cos(pi * X[0]) * std::sin(pi * X[1]);
   }
   adopt_state(s);
   march(s, 60);
   ASSERT_FALSE(s.breakdown) << s.breakdown->text;
   double mean = 0, volume = 0;
-  for (int n = 0; n < s.order.nodes; ++n) mean += s.volume[n] * U_of(s, n)[3], volume += s.volume[n];
+  for (int n = 0; n < s.order.nodes; ++n) {
+    mean += s.volume[n] * U_of(s, n)[3];
+    volume += s.volume[n];
+  }
   EXPECT_LT(std::abs(mean / volume), 1e-9 * 1100 * 20 * 20);
   const Energies e = energies(s);
   EXPECT_GT((e.kinetic + e.strain) / s.ledger.initial_energy, 0.5);
@@ -276,7 +310,8 @@ TEST(Projection, DomainIsClosedOnlyWithoutAFreeNormalAndOnlyAtOneHalf) {
 
 TEST(Projection, SecondOrderInTime) {
   Scene scene = incompressible(column(3));
-  scene.time.end = 0.05, scene.projection.tolerance = 1e-7;
+  scene.time.end = 0.05;
+  scene.projection.tolerance = 1e-7;
   Vec3 tip[3];
   for (int k = 0; k < 3; ++k) {
     const Problem problem(scene);
@@ -293,7 +328,8 @@ TEST(Projection, SecondOrderInTime) {
 TEST(Projection, AStressOfThePressureIsSphericalAndTheFieldSaysSo) {
   for (const Law law : {Law::neo_hookean, Law::mooney_rivlin}) {
     Scene scene = incompressible(column(3));
-    scene.material.law = law, scene.material.xi = law == Law::mooney_rivlin ? 3e5 : 0;
+    scene.material.law = law;
+    scene.material.xi = law == Law::mooney_rivlin ? 3e5 : 0;
     const Problem problem(scene);
     Simulation s = problem.start();
     march(s, 30);

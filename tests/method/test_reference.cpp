@@ -10,7 +10,7 @@
 namespace nanson {
 namespace {
 
-constexpr double tolerance = 1e-13;      // relative to the largest value of each field
+constexpr double tolerance = 1e-13;       // relative to the largest value of each field
 constexpr double rare_tolerance = 1e-12;  // the limiter divides by small slopes
 
 Named name_of(const char* face) { return {face, ""}; }
@@ -18,18 +18,36 @@ Named name_of(const char* face) { return {face, ""}; }
 /// A perturbed alternating box with every kind of support and load: two parts with 12 x 12 x 12 nodes.
 Scene loaded_box(std::array<int, 3> cells) {
   Scene s;
-  s.mesh.origin = {-0.3, 0.1, 0.2}, s.mesh.size = {1.0, 1.2, 0.9}, s.mesh.cells = cells, s.mesh.perturb = 0.2;
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.4;
+  s.mesh.origin = {-0.3, 0.1, 0.2};
+  s.mesh.size = {1.0, 1.2, 0.9};
+  s.mesh.cells = cells;
+  s.mesh.perturb = 0.2;
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = 0.4;
   s.body_force = {0.5, -9.81, 2.0};
   BoundarySpec fixed, symmetric, skew, traction, pressure, velocity;
-  fixed.kind = BoundaryKind::fixed, fixed.faces = {name_of("zmin")};
-  symmetric.kind = BoundaryKind::symmetric, symmetric.faces = {name_of("xmin")};
-  skew.kind = BoundaryKind::skew_symmetric, skew.faces = {name_of("ymin")};
-  traction.kind = BoundaryKind::traction, traction.faces = {name_of("xmax")}, traction.traction = {2e5, -1e5, 3e5};
-  traction.time.kind = TimeKind::ramp, traction.time.until = 1e-3;
-  pressure.kind = BoundaryKind::pressure, pressure.faces = {name_of("ymax"), name_of("xmax")}, pressure.pressure = 4e5;
-  velocity.kind = BoundaryKind::velocity, velocity.faces = {name_of("zmax")}, velocity.velocity = {3.0, 0.0, -2.0}, velocity.held = {true, false, true};
-  velocity.time.kind = TimeKind::sine, velocity.time.frequency = 400, velocity.time.phase = 0.3;
+  fixed.kind = BoundaryKind::fixed;
+  fixed.faces = {name_of("zmin")};
+  symmetric.kind = BoundaryKind::symmetric;
+  symmetric.faces = {name_of("xmin")};
+  skew.kind = BoundaryKind::skew_symmetric;
+  skew.faces = {name_of("ymin")};
+  traction.kind = BoundaryKind::traction;
+  traction.faces = {name_of("xmax")};
+  traction.traction = {2e5, -1e5, 3e5};
+  traction.time.kind = TimeKind::ramp;
+  traction.time.until = 1e-3;
+  pressure.kind = BoundaryKind::pressure;
+  pressure.faces = {name_of("ymax"), name_of("xmax")};
+  pressure.pressure = 4e5;
+  velocity.kind = BoundaryKind::velocity;
+  velocity.faces = {name_of("zmax")};
+  velocity.velocity = {3.0, 0.0, -2.0};
+  velocity.held = {true, false, true};
+  velocity.time.kind = TimeKind::sine;
+  velocity.time.frequency = 400;
+  velocity.time.phase = 0.3;
   s.boundary = {fixed, symmetric, skew, traction, pressure, velocity};
   return s;
 }
@@ -56,8 +74,13 @@ void shake(Simulation& s) {
     for (int m = 0; m < 9 && !u.H[0].empty(); ++m) u.H[0][row::H * r + 4 * (m / 3) + m % 3] += uniform(0.1);
   }
   Rows rows{};
-  rows.X = u.X.data(), rows.U_new = u.U[0].data(), rows.H_new = u.H[0].data(), rows.W_new = u.W[u.now].data(), rows.PH_new = u.PH[u.now].data();
-  for (std::size_t p = 0; p < s.order.parts.size(); ++p) s.reports[p] = s.functions.stress(s.order.parts[p], rows, s.coefficients, u.step_length.data());
+  rows.X = u.X.data();
+  rows.U_new = u.U[0].data();
+  rows.H_new = u.H[0].data();
+  rows.W_new = u.W[u.now].data();
+  rows.PH_new = u.PH[u.now].data();
+  for (std::size_t p = 0; p < s.order.parts.size(); ++p)
+    s.reports[p] = s.functions.stress(s.order.parts[p], rows, s.coefficients, u.step_length.data());
 }
 
 /// Power of the stabilisation over all parts, after the gradients of the present state.
@@ -66,11 +89,14 @@ double dissipation_of(Simulation& s) {
   const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, Materials::one, true);
   double power = 0;
   for (const Part& p : s.order.parts)
-    if (!s.state.G.empty()) functions.gradient(p, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+    if (!s.state.G.empty())
+      functions.gradient(p, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
   find_current_areas(s, rows.U_stage);
   Rows with_areas = rows;
   with_areas.dJ = s.current.dJ.data();
-  for (const Part& p : s.order.parts) power += functions.edge_flux(p, flux_edges(s), flux_corners(s), s.order.lists(), with_areas, s.coefficients, scratch_of(s, 0));
+  for (const Part& p : s.order.parts)
+    power += functions.edge_flux(p, flux_edges(s), flux_corners(s), s.order.lists(), with_areas, s.coefficients,
+                                 scratch_of(s, 0));
   return power;
 }
 
@@ -102,7 +128,8 @@ std::vector<Choice> all_of() {
 
 /// Options that do not multiply with the materials: one law each is enough, since no sweep but the stress knows one.
 bool is_rare(const PhysicsSpec& p) {
-  return p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none || p.stabilisation != Stabilisation::upwind;
+  return p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none
+         || p.stabilisation != Stabilisation::upwind;
 }
 
 /// Every set of sweeps that is built for a formulation.
@@ -115,11 +142,15 @@ std::vector<PhysicsSpec> sweeps_of(Formulation formulation) {
           for (auto boundary : all_of<BoundaryFlux>())
             for (auto metric : all_of<UpwindMetric>())
               for (auto fix : all_of<EntropyFix>()) {
-                const PhysicsSpec p{formulation, stabilisation, jump, reconstruction, correction, boundary, metric, fix};
+                const PhysicsSpec p{formulation, stabilisation, jump,   reconstruction,
+                                    correction,  boundary,      metric, fix};
                 const bool tensor = jump == PressureJump::tensor;
                 if (reconstruction == Reconstruction::constant && correction != FluxCorrection::none) continue;
                 if (tensor && (formulation == Formulation::pF || is_rare(p))) continue;
-                if (stabilisation == Stabilisation::jst && (reconstruction != Reconstruction::linear || correction != FluxCorrection::none || fix != EntropyFix::none)) continue;
+                if (stabilisation == Stabilisation::jst
+                    && (reconstruction != Reconstruction::linear || correction != FluxCorrection::none
+                        || fix != EntropyFix::none))
+                  continue;
                 all.push_back(p);
               }
   return all;
@@ -127,8 +158,8 @@ std::vector<PhysicsSpec> sweeps_of(Formulation formulation) {
 
 std::string text_of(const PhysicsSpec& p) {
   std::string out;
-  for (auto w : {word(p.formulation), word(p.stabilisation), word(p.pressure_jump), word(p.reconstruction), word(p.flux_correction), word(p.boundary_flux),
-                 word(p.upwind_metric), word(p.entropy_fix)})
+  for (auto w : {word(p.formulation), word(p.stabilisation), word(p.pressure_jump), word(p.reconstruction),
+                 word(p.flux_correction), word(p.boundary_flux), word(p.upwind_metric), word(p.entropy_fix)})
     out += std::string(out.empty() ? "" : "_") + std::string(w);
   return out;
 }
@@ -148,10 +179,12 @@ std::vector<MaterialCase> materials() {
       for (auto volumetric : all_of<Volumetric>())
         for (auto isochoric : all_of<Isochoric>()) {
           if (formulation == Formulation::pFp || law == Law::hencky_j2) continue;  // the plain loop has neither
-          if (law == Law::linear_elastic && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F)) continue;
+          if (law == Law::linear_elastic && (volumetric != Volumetric::quadratic || isochoric != Isochoric::F))
+            continue;
           if (formulation == Formulation::pF && isochoric != Isochoric::F) continue;
           all.push_back({formulation, law, volumetric, isochoric});
-          if (formulation != Formulation::pF && law != Law::linear_elastic && volumetric == Volumetric::quadratic && isochoric == Isochoric::F)
+          if (formulation != Formulation::pF && law != Law::linear_elastic && volumetric == Volumetric::quadratic
+              && isochoric == Isochoric::F)
             all.push_back({formulation, law, volumetric, isochoric, 0.8});
         }
   return all;
@@ -162,21 +195,26 @@ class Reference : public testing::TestWithParam<MaterialCase> {};
 TEST_P(Reference, EveryBuiltCombinationGivesTheNumbersOfThePlainLoop) {
   const MaterialCase c = GetParam();
   Scene scene = loaded_box({11, 11, 11});
-  scene.material.law = c.law, scene.material.volumetric = c.volumetric, scene.material.isochoric = c.isochoric;
+  scene.material.law = c.law;
+  scene.material.volumetric = c.volumetric;
+  scene.material.isochoric = c.isochoric;
   if (c.law == Law::mooney_rivlin) scene.material.xi = 2e5;
   const Mesh mesh = mesh_of(scene);
-  const bool one_law = c.law == Law::neo_hookean && c.volumetric == Volumetric::quadratic && c.isochoric == Isochoric::F;
+  const bool one_law = c.law == Law::neo_hookean && c.volumetric == Volumetric::quadratic
+                       && c.isochoric == Isochoric::F;
   for (const PhysicsSpec& p : sweeps_of(c.formulation)) {
     if (is_rare(p) && (!one_law || c.parting > 0)) continue;
     if (c.parting > 0 && p.pressure_jump != PressureJump::scalar) continue;  // no scene has both
-    scene.physics = p, scene.physics.parting = c.parting;
+    scene.physics = p;
+    scene.physics.parting = c.parting;
     EXPECT_LT(difference_after(scene, mesh, 3, 1, 2), is_rare(p) ? rare_tolerance : tolerance) << text_of(p);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Materials, Reference, testing::ValuesIn(materials()), [](const auto& info) {
   const MaterialCase& c = info.param;
-  return std::string(word(c.formulation)) + "_" + std::string(word(c.law)) + "_" + std::string(word(c.volumetric)) + "_" + std::string(word(c.isochoric)) + (c.parting > 0 ? "_parting" : "");
+  return std::string(word(c.formulation)) + "_" + std::string(word(c.law)) + "_" + std::string(word(c.volumetric)) + "_"
+         + std::string(word(c.isochoric)) + (c.parting > 0 ? "_parting" : "");
 });
 
 TEST(Reference, CurrentAreasGiveTheNumbersOfThePlainLoop) {
@@ -186,11 +224,17 @@ TEST(Reference, CurrentAreasGiveTheNumbersOfThePlainLoop) {
     for (auto integrator : {Integrator::tvd_rk2, Integrator::ssp_rk3})
       for (auto reconstruction : {Reconstruction::constant, Reconstruction::linear})
         for (auto metric : all_of<UpwindMetric>()) {
-          scene.physics.description = description, scene.physics.reconstruction = reconstruction, scene.physics.upwind_metric = metric;
+          scene.physics.description = description;
+          scene.physics.reconstruction = reconstruction;
+          scene.physics.upwind_metric = metric;
           scene.time.integrator = integrator;
-          EXPECT_LT(difference_after(scene, mesh, 3, 2, 2), tolerance) << word(description) << " " << word(integrator) << " " << text_of(scene.physics);
+          EXPECT_LT(difference_after(scene, mesh, 3, 2, 2), tolerance)
+              << word(description) << " " << word(integrator) << " " << text_of(scene.physics);
         }
-  scene.material.law = Law::mooney_rivlin, scene.material.xi = 2e5, scene.material.volumetric = Volumetric::barrier, scene.material.isochoric = Isochoric::J;
+  scene.material.law = Law::mooney_rivlin;
+  scene.material.xi = 2e5;
+  scene.material.volumetric = Volumetric::barrier;
+  scene.material.isochoric = Isochoric::J;
   EXPECT_LT(difference_after(scene, mesh, 3, 1, 2), tolerance);
 }
 
@@ -203,9 +247,11 @@ TEST(Reference, BothIntegratorsGiveTheNumbersOfThePlainLoopOnManyParts) {
         if (formulation == Formulation::pFp) continue;  // the plain loop has no projection
         scene.time.integrator = integrator;
         scene.physics = {};
-        scene.physics.formulation = formulation, scene.physics.flux_correction = correction;
+        scene.physics.formulation = formulation;
+        scene.physics.flux_correction = correction;
         const int threads = correction == FluxCorrection::none ? 2 : 1;
-        EXPECT_LT(difference_after(scene, mesh, 4, threads, 4), tolerance) << word(integrator) << " " << text_of(scene.physics);
+        EXPECT_LT(difference_after(scene, mesh, 4, threads, 4), tolerance)
+            << word(integrator) << " " << text_of(scene.physics);
       }
 }
 

@@ -31,13 +31,16 @@ double expected_step(const Problem& p) {
   double shortest_edge = std::numeric_limits<double>::max(), length = shortest_edge;
   for (const DualEdge& e : dual.edges) {
     const double A = std::sqrt(e.C[0] * e.C[0] + e.C[1] * e.C[1] + e.C[2] * e.C[2]);
-    area[e.a] += A, area[e.b] += A;
+    area[e.a] += A;
+    area[e.b] += A;
     const Vec3 &a = p.mesh.X[e.a], &b = p.mesh.X[e.b];
-    shortest_edge = std::min(shortest_edge, std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1]) + (a[2] - b[2]) * (a[2] - b[2])));
+    shortest_edge = std::min(shortest_edge, std::sqrt((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+                                                      + (a[2] - b[2]) * (a[2] - b[2])));
   }
   for (std::size_t n = 0; n < area.size(); ++n) length = std::min(length, 6 * dual.volume[n] / area[n]);
   if (p.scene.time.step != StepRule::dual) length = shortest_edge;
-  const double E = p.scene.material.youngs_modulus, nu = p.scene.material.poissons_ratio, rho = p.scene.material.density;
+  const double E = p.scene.material.youngs_modulus, nu = p.scene.material.poissons_ratio,
+               rho = p.scene.material.density;
   return p.scene.time.cfl * length / std::sqrt(E * (1 - nu) / ((1 + nu) * (1 - 2 * nu) * rho));
 }
 
@@ -46,7 +49,10 @@ TEST(Step, IsTheRulesLengthOverTheWaveSpeedAtRest) {
     for (double perturb : {0.0, 0.3})
       for (auto law : {Law::neo_hookean, Law::linear_elastic}) {
         Scene scene = free_bar(3);
-        scene.mesh.perturb = perturb, scene.material.law = law, scene.time.step = rule, scene.time.cfl = 0.25;
+        scene.mesh.perturb = perturb;
+        scene.material.law = law;
+        scene.time.step = rule;
+        scene.time.cfl = 0.25;
         const Problem problem(scene);
         Simulation s = problem.start();
         EXPECT_NEAR(allowed_step(s) / expected_step(problem), 1, 1e-12) << word(rule) << ' ' << word(law);
@@ -65,7 +71,8 @@ TEST(Step, OfTheDualRuleIsTheCellOverTheWaveSpeedOnCubes) {
 
 TEST(Step, GrowsByFivePercentAtMost) {
   Scene scene = free_bar(3);
-  scene.initial.field = InitialField::rest, scene.time.end = 0.02;
+  scene.initial.field = InitialField::rest;
+  scene.time.end = 0.02;
   const Problem problem(scene);
   Simulation s = problem.start();
   deform(s, {{{0.5, 0, 0}, {0, 0.6, 0}, {0, 0, 0.55}}});  // let go, it expands and its step grows
@@ -73,7 +80,10 @@ TEST(Step, GrowsByFivePercentAtMost) {
   int at_limit = 0;
   Observer observer;
   observer.on_step = [&](const Simulation& now) {
-    if (last > 0) largest = std::max(largest, now.dt / last), at_limit += now.dt == 1.05 * last;
+    if (last > 0) {
+      largest = std::max(largest, now.dt / last);
+      at_limit += now.dt == 1.05 * last;
+    }
     last = now.dt;
   };
   std::string reason;
@@ -146,7 +156,8 @@ TEST(Step, LimitingNodesAreThoseThatSetIt) {
   for (auto formulation : formulations)
     for (auto rule : {StepRule::dual, StepRule::edge}) {
       Scene scene = free_bar(4);
-      scene.physics.formulation = formulation, scene.time.step = rule;
+      scene.physics.formulation = formulation;
+      scene.time.step = rule;
       const Problem problem(scene);
       Simulation s = problem.start();
       march(s, 40);

@@ -16,7 +16,7 @@ struct SceneRun {
   Summary summary;
   std::vector<HistoryColumn> columns;
   std::vector<std::vector<double>> history;
-  double largest_energy = 0;                       // largest (kinetic + strain - external work)/initial over the history rows
+  double largest_energy = 0;  // largest (kinetic + strain - external work)/initial over the history rows
 
   /// The column of that name over all rows.
   std::vector<double> column(const std::string& name) const {
@@ -45,7 +45,8 @@ inline SceneRun run_config(const std::string& scene, const std::vector<std::stri
   observer.on_history = [&](const Simulation&) {
     out.history.push_back(history_row(s, probes));
     const Energies e = energies(s);
-    out.largest_energy = std::max(out.largest_energy, (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy);
+    out.largest_energy = std::max(out.largest_energy,
+                                  (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy);
   };
   std::string reason;
   const std::string status = run(s, observer, reason);

@@ -21,7 +21,10 @@ Profile profile_of(const Simulation& s) {
   const int cells = m.cells[2];
   const std::size_t points = static_cast<std::size_t>(cells) + 1;
   Profile out;
-  out.end = s.t, out.r.resize(points), out.pressure.assign(points, 0), out.sigma_rr.assign(points, 0);
+  out.end = s.t;
+  out.r.resize(points);
+  out.pressure.assign(points, 0);
+  out.sigma_rr.assign(points, 0);
   const double share = 1.0 / ((m.cells[0] + 1) * (m.cells[1] + 1));
   for (int n = 0; n < s.order.nodes; ++n) {
     const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
@@ -30,11 +33,15 @@ Profile profile_of(const Simulation& s) {
     double p, P[9];
     field_at(s, "pressure", n, &p);
     field_at(s, "P", n, P);
-    out.r[k] = r, out.pressure[k] += share * p;
+    out.r[k] = r;
+    out.pressure[k] += share * p;
     for (int i = 0; i < 9; ++i) out.sigma_rr[k] += share * P[i] * X[i / 3] * X[i % 3] / (r * r);
   }
   const Blake exact;
-  for (const double r : out.r) out.exact_pressure.push_back(exact.pressure(r, s.t)), out.exact_sigma_rr.push_back(exact.sigma_rr(r, s.t));
+  for (const double r : out.r) {
+    out.exact_pressure.push_back(exact.pressure(r, s.t));
+    out.exact_sigma_rr.push_back(exact.sigma_rr(r, s.t));
+  }
   return out;
 }
 
@@ -42,7 +49,8 @@ double relative_L1(const std::vector<double>& ours, const std::vector<double>& e
   double error = 0, size = 0;
   for (std::size_t k = 0; k < ours.size(); ++k) {
     const double weight = k == 0 || k + 1 == ours.size() ? 0.5 : 1;
-    error += weight * std::abs(ours[k] - exact[k]), size += weight * std::abs(exact[k]);
+    error += weight * std::abs(ours[k] - exact[k]);
+    size += weight * std::abs(exact[k]);
   }
   return error / size;
 }
@@ -58,35 +66,42 @@ Overshoot overshoot(const Profile& f) {
   Overshoot out;
   for (std::size_t k = 0; k < f.r.size(); ++k)
     if (f.r[k] > exact.front(f.end)) out.ahead = std::max(out.ahead, -f.pressure[k] / exact.jump(f.end));
-    else out.behind = std::max({out.behind, (f.pressure[k] - *most) / exact.jump(f.end), (*least - f.pressure[k]) / exact.jump(f.end)});
+    else
+      out.behind = std::max(
+          {out.behind, (f.pressure[k] - *most) / exact.jump(f.end), (*least - f.pressure[k]) / exact.jump(f.end)});
   return out;
 }
 
 struct Result {
-  double pressure = 0, sigma_rr = 0;   // relative L1
+  double pressure = 0, sigma_rr = 0;  // relative L1
   Overshoot overshoot;
 };
 
-Result run_blake(const std::string& reconstruction, const std::string& correction, std::vector<std::string> settings = {}) {
-  settings.insert(settings.end(), {"physics.reconstruction=" + reconstruction, "physics.flux_correction=" + correction});
+Result run_blake(const std::string& reconstruction, const std::string& correction,
+                 std::vector<std::string> settings = {}) {
+  settings.insert(settings.end(),
+                  {"physics.reconstruction=" + reconstruction, "physics.flux_correction=" + correction});
   Profile f;
   const SceneRun run = run_config("blake.toml", settings, 1, [&](const Simulation& s) { f = profile_of(s); });
   EXPECT_EQ(run.summary.status, "done");
   const Result r{relative_L1(f.pressure, f.exact_pressure), relative_L1(f.sigma_rr, f.exact_sigma_rr), overshoot(f)};
-  testing::Test::RecordProperty(fmt::format("{}_{}", reconstruction, correction), fmt::format("pressure {:.3f}, sigma_rr {:.3f}, overshoot behind {:.3f}, ahead {:.3f}, closure {:.1e}",
-                                                                                              r.pressure, r.sigma_rr, r.overshoot.behind, r.overshoot.ahead, *run.summary.energy.closure));
+  testing::Test::RecordProperty(
+      fmt::format("{}_{}", reconstruction, correction),
+      fmt::format("pressure {:.3f}, sigma_rr {:.3f}, overshoot behind {:.3f}, ahead {:.3f}, closure {:.1e}", r.pressure,
+                  r.sigma_rr, r.overshoot.behind, r.overshoot.ahead, *run.summary.energy.closure));
   return r;
 }
 
 TEST(BlakeExact, IsTheDifferencesOfItsPotential) {
   const Blake b;
-  const double t = 1.6e-4, h = 1e-4;   // [s], [m]
+  const double t = 1.6e-4, h = 1e-4;  // [s], [m]
   for (const double r : {0.1 + 2 * h, 0.2, 0.37, 0.6, 0.85}) {
     const auto phi = [&](int k) { return b.potential(r + k * h, t); };
-    const double first = (phi(-2) - 8 * phi(-1) + 8 * phi(1) - phi(2)) / (12 * h), second = (-phi(-2) + 16 * phi(-1) - 30 * phi(0) + 16 * phi(1) - phi(2)) / (12 * h * h);
+    const double first = (phi(-2) - 8 * phi(-1) + 8 * phi(1) - phi(2)) / (12 * h),
+                 second = (-phi(-2) + 16 * phi(-1) - 30 * phi(0) + 16 * phi(1) - phi(2)) / (12 * h * h);
     EXPECT_NEAR(b.u(r, t) / first, 1, 1e-6) << r;
     EXPECT_NEAR(b.du(r, t), second, 1e-6 * b.p / b.mu()) << r;
-    const double dt = h / b.cp();      // d2 phi/dt2 = c_p^2 div u
+    const double dt = h / b.cp();  // d2 phi/dt2 = c_p^2 div u
     const auto at = [&](int k) { return b.potential(r, t + k * dt); };
     const double rate = (-at(-2) + 16 * at(-1) - 30 * at(0) + 16 * at(1) - at(2)) / (12 * h * h);
     EXPECT_NEAR(-b.pressure(r, t), b.kappa() * rate, 1e-6 * b.p) << r;
@@ -105,7 +120,8 @@ TEST(BlakeExact, StartsAtRestAndHasThePressureOnTheCavity) {
 }
 
 TEST(Blake, PressureErrorsAreThoseOfThePrototype) {
-  const Result constant = run_blake("constant", "none"), linear = run_blake("linear", "none"), limited = run_blake("limited", "none");
+  const Result constant = run_blake("constant", "none"), linear = run_blake("linear", "none"),
+               limited = run_blake("limited", "none");
   const Result corrected = run_blake("linear", "full"), both = run_blake("limited", "full");
   EXPECT_LE(constant.pressure, 0.66);
   EXPECT_LE(linear.pressure, 0.32);

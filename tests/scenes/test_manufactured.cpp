@@ -15,7 +15,9 @@ Rates rates(std::vector<std::string> settings) {
   const SceneRun coarse = run_config("manufactured.toml", settings);
   settings.back() = "mesh.cells=[12,12,12]";
   const SceneRun fine = run_config("manufactured.toml", settings);
-  const auto rate = [&](const char* key) { return std::log2(coarse.summary.errors.at(key) / fine.summary.errors.at(key)); };
+  const auto rate = [&](const char* key) {
+    return std::log2(coarse.summary.errors.at(key) / fine.summary.errors.at(key));
+  };
   return {rate("p1_L2"), rate("P11_L2"), fine.summary.errors.at("p1_L2")};
 }
 
@@ -38,11 +40,13 @@ TEST(Manufactured, EveryDescriptionConverges) {
 }
 
 TEST(Manufactured, LawsAndNearlyIncompressibleSolidsConverge) {
-  const std::vector<std::vector<std::string>> variants{{"material.volumetric=barrier"},
-                                                       {"material.law=mooney_rivlin", "material.xi=5e5"},
-                                                       {"material.law=linear_elastic"},
-                                                       {"material.poissons_ratio=0.495", "initial.amplitudes=[0.05,-0.03,-0.02]", "initial.period=0.03", "time.end=0.01"},
-                                                       {"mesh.perturb=0.1"}};
+  const std::vector<std::vector<std::string>> variants{
+      {"material.volumetric=barrier"},
+      {"material.law=mooney_rivlin", "material.xi=5e5"},
+      {"material.law=linear_elastic"},
+      {"material.poissons_ratio=0.495", "initial.amplitudes=[0.05,-0.03,-0.02]", "initial.period=0.03",
+       "time.end=0.01"},
+      {"mesh.perturb=0.1"}};
   for (const auto& variant : variants) {
     std::vector<std::string> settings = variant;
     settings.push_back("physics.flux_correction=full");

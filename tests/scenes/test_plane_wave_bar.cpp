@@ -7,7 +7,8 @@ namespace nanson {
 namespace {
 
 TEST(PlaneWaveBar, ErrorsFallWithTheMesh) {
-  const SceneRun coarse = run_config("plane_wave_bar.toml", {"mesh.cells=[32,4,4]"}), fine = run_config("plane_wave_bar.toml");
+  const SceneRun coarse = run_config("plane_wave_bar.toml", {"mesh.cells=[32,4,4]"}),
+                 fine = run_config("plane_wave_bar.toml");
   EXPECT_EQ(fine.summary.status, "done");
   const double p1 = std::log2(coarse.summary.errors.at("p1_L2") / fine.summary.errors.at("p1_L2"));
   const double P11 = std::log2(coarse.summary.errors.at("P11_L2") / fine.summary.errors.at("P11_L2"));

@@ -33,8 +33,14 @@ TEST(Satellite, ArmsReachTheFiguresMeasuredBefore) {
 /// Arms bend about concave edges, where nothing but D^J ties J to det F: tets turn inside out, unless the parting has an energy.
 TEST(Satellite, NoTetTurnsInsideOutWithAnEnergyOfTheParting) {
   const std::vector<std::string> settings{"monitor.geometry=true", "output.history_every=20"};
-  const auto least = [](const SceneRun& r, const char* name) { const auto c = r.column(name); return *std::min_element(c.begin(), c.end()); };
-  const auto most = [](const SceneRun& r, const char* name) { const auto c = r.column(name); return *std::max_element(c.begin(), c.end()); };
+  const auto least = [](const SceneRun& r, const char* name) {
+    const auto c = r.column(name);
+    return *std::min_element(c.begin(), c.end());
+  };
+  const auto most = [](const SceneRun& r, const char* name) {
+    const auto c = r.column(name);
+    return *std::max_element(c.begin(), c.end());
+  };
   const SceneRun plain = run_config("satellite.toml", settings);
   EXPECT_LT(least(plain, "min_tet_ratio"), -0.2);
   EXPECT_LT(least(plain, "min_detF_over_J"), 0.4);

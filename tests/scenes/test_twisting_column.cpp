@@ -6,23 +6,31 @@ namespace {
 
 struct Row {
   const char *formulation, *split, *boundary, *isochoric;
-  double tip[3], energy;                           // [m] of the corner that starts at (0.5, 0.5, 6); E/E0
+  double tip[3], energy;  // [m] of the corner that starts at (0.5, 0.5, 6); E/E0
 };
 
 TEST(TwistingColumn, ReachesTheFiguresMeasuredBefore) {
-  for (const Row& r : {Row{"pF", "kuhn", "paper", "F", {0.543, 0.351, 6.013}, 0.755}, Row{"pF", "kuhn", "adjoint", "F", {0.544, 0.332, 6.018}, 0.738},
-                       Row{"pF", "alternating", "paper", "F", {0.741, 0.194, 6.111}, 1.496}, Row{"pF", "alternating", "adjoint", "F", {0.684, 0.186, 5.995}, 0.798},
-                       Row{"pFJ", "kuhn", "paper", "J", {0.546, 0.336, 5.974}, 0.697}, Row{"pFJ", "kuhn", "paper", "F", {0.548, 0.335, 5.985}, 0.71},
-                       Row{"pFJ", "kuhn", "adjoint", "F", {0.530, 0.360, 5.986}, 0.713}, Row{"pFJ", "alternating", "adjoint", "F", {0.569, 0.421, 5.967}, 0.747},
+  for (const Row& r : {Row{"pF", "kuhn", "paper", "F", {0.543, 0.351, 6.013}, 0.755},
+                       Row{"pF", "kuhn", "adjoint", "F", {0.544, 0.332, 6.018}, 0.738},
+                       Row{"pF", "alternating", "paper", "F", {0.741, 0.194, 6.111}, 1.496},
+                       Row{"pF", "alternating", "adjoint", "F", {0.684, 0.186, 5.995}, 0.798},
+                       Row{"pFJ", "kuhn", "paper", "J", {0.546, 0.336, 5.974}, 0.697},
+                       Row{"pFJ", "kuhn", "paper", "F", {0.548, 0.335, 5.985}, 0.71},
+                       Row{"pFJ", "kuhn", "adjoint", "F", {0.530, 0.360, 5.986}, 0.713},
+                       Row{"pFJ", "alternating", "adjoint", "F", {0.569, 0.421, 5.967}, 0.747},
                        Row{"pFHJ", "alternating", "adjoint", "F", {0.569, 0.421, 5.967}, 0.747}}) {
     const std::string name = std::string(r.formulation) + " " + r.split + " " + r.boundary;
-    const SceneRun run = run_config("twisting_column.toml", {"mesh.cells=[4,4,24]", std::string("mesh.split=") + r.split, std::string("physics.formulation=") + r.formulation,
-                                                             std::string("physics.boundary_flux=") + r.boundary, std::string("material.isochoric=") + r.isochoric,
-                                                             "physics.upwind_metric=paper", "time.step=paper"});
+    const SceneRun run = run_config(
+        "twisting_column.toml",
+        {"mesh.cells=[4,4,24]", std::string("mesh.split=") + r.split,
+         std::string("physics.formulation=") + r.formulation, std::string("physics.boundary_flux=") + r.boundary,
+         std::string("material.isochoric=") + r.isochoric, "physics.upwind_metric=paper", "time.step=paper"});
     ASSERT_EQ(run.summary.status, "done") << name;
     const auto& tip = run.summary.probes.at("tip").at("x");
-    for (int k = 0; k < 3; ++k) EXPECT_NEAR(tip[static_cast<std::size_t>(k)], r.tip[k], 5e-3) << name << " component " << k;
-    EXPECT_NEAR((run.summary.energy.kinetic + run.summary.energy.strain) / run.summary.energy.initial, r.energy, 0.01) << name;
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(tip[static_cast<std::size_t>(k)], r.tip[k], 5e-3) << name << " component " << k;
+    EXPECT_NEAR((run.summary.energy.kinetic + run.summary.energy.strain) / run.summary.energy.initial, r.energy, 0.01)
+        << name;
     if (std::string(r.boundary) == "adjoint") {
       EXPECT_LT(*run.summary.energy.closure, 1e-3) << name;
       EXPECT_LE(run.largest_energy, 1 + 1e-6) << name;

@@ -19,9 +19,13 @@ SceneRun run_column(int n, std::vector<std::string> settings) {
 }
 
 TEST(TwistingColumnIncompressible, ReachesTheFiguresMeasuredBefore) {
-  for (const Row& r : {Row{4, "cg", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 7.1, 96}, Row{4, "pseudo_time", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 12, 96},
-                       Row{6, "cg", 0.1, 0.949, {0.489, 0.513, 5.975}, {0.829, 1.230}, 0.087, 7.2, 144}, Row{4, "cg", 0.5, 0.585, {0.303, -0.643, 6.109}, {0.879, 1.419}, 0.28, 6.9, 479}}) {
-    std::vector<std::string> settings{"projection.tolerance=1e-4", "time.step=edge", "time.end=" + std::to_string(r.end), std::string("projection.solver=") + r.solver};
+  for (const Row& r : {Row{4, "cg", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 7.1, 96},
+                       Row{4, "pseudo_time", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 12, 96},
+                       Row{6, "cg", 0.1, 0.949, {0.489, 0.513, 5.975}, {0.829, 1.230}, 0.087, 7.2, 144},
+                       Row{4, "cg", 0.5, 0.585, {0.303, -0.643, 6.109}, {0.879, 1.419}, 0.28, 6.9, 479}}) {
+    std::vector<std::string> settings{"projection.tolerance=1e-4", "time.step=edge",
+                                      "time.end=" + std::to_string(r.end),
+                                      std::string("projection.solver=") + r.solver};
     if (std::string(r.solver) == "pseudo_time") settings.push_back("projection.length_scale=0.2");
     const Summary s = run_column(r.n, settings).summary;
     ASSERT_EQ(s.status, "done");
@@ -49,7 +53,8 @@ TEST(TwistingColumnIncompressible, DefaultsGiveASmoothPressureAndNeverGainEnergy
 TEST(TwistingColumnIncompressible, EnergyBooksCloseWithTheStep) {
   double closure[2];
   for (int k = 0; k < 2; ++k) {
-    const SceneRun run = run_column(4, {"monitor.energy=true", "projection.tolerance=1e-6", k == 0 ? "time.cfl=0.3" : "time.cfl=0.15"});
+    const SceneRun run = run_column(
+        4, {"monitor.energy=true", "projection.tolerance=1e-6", k == 0 ? "time.cfl=0.3" : "time.cfl=0.15"});
     closure[k] = *run.summary.energy.closure;
   }
   EXPECT_LT(closure[0], 4e-3);  // 2.0e-3, 8.5e-4; the drift is that of the last projection
@@ -61,7 +66,8 @@ TEST(TwistingColumnIncompressible, IsSmoothInPoissonsRatioUpToOneHalf) {
   for (const char* nu : {"0.3", "0.4", "0.45", "0.49", "0.499", "0.4999", "0.5"}) {
     const Summary s = run_column(4, {std::string("material.poissons_ratio=") + nu, "time.dt_max=1e-3"}).summary;
     ASSERT_EQ(s.status, "done") << nu;
-    x.push_back(s.probes.at("tip").at("x")[0]), energy.push_back(energy_left(s));
+    x.push_back(s.probes.at("tip").at("x")[0]);
+    energy.push_back(energy_left(s));
     EXPECT_LT(s.checkerboard, 0.2) << nu;
   }
   for (std::size_t k = 1; k < x.size(); ++k) EXPECT_LT(std::abs(energy[k] - energy[k - 1]), 6e-3);
@@ -70,13 +76,14 @@ TEST(TwistingColumnIncompressible, IsSmoothInPoissonsRatioUpToOneHalf) {
 }
 
 TEST(TwistingColumnIncompressible, NodesThatLimitItsStepAreFound) {
-  run_config("twisting_column_incompressible.toml", {"mesh.cells=[3,3,18]", "time.end=0.002"}, 1, [](const Simulation& s) {
-    const std::string before = state_hash(s);
-    const auto worst = limiting_nodes(s, 5);
-    ASSERT_EQ(worst.size(), 5u);
-    EXPECT_EQ(worst[0].second, allowed_step(s));
-    EXPECT_EQ(state_hash(s), before);
-  });
+  run_config("twisting_column_incompressible.toml", {"mesh.cells=[3,3,18]", "time.end=0.002"}, 1,
+             [](const Simulation& s) {
+               const std::string before = state_hash(s);
+               const auto worst = limiting_nodes(s, 5);
+               ASSERT_EQ(worst.size(), 5u);
+               EXPECT_EQ(worst[0].second, allowed_step(s));
+               EXPECT_EQ(state_hash(s), before);
+             });
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ Coefficients1D measured(const SceneRun& run) {
 
 TEST(TwoMaterialsBar, ReflectsAndTransmitsLikeTheImpedances) {
   for (const char* formulation : {"physics.formulation=pF", "physics.formulation=pFJ"}) {
-    const SceneRun coarse = run_config("two_materials_bar.toml", {"mesh.cells=[64,4,4]", formulation}), fine = run_config("two_materials_bar.toml", {"mesh.cells=[128,4,4]", formulation});
+    const SceneRun coarse = run_config("two_materials_bar.toml", {"mesh.cells=[64,4,4]", formulation}),
+                   fine = run_config("two_materials_bar.toml", {"mesh.cells=[128,4,4]", formulation});
     const Coefficients1D c = measured(coarse), f = measured(fine);
     EXPECT_EQ(fine.summary.status, "done");
     EXPECT_NEAR(fine.summary.mass, 3000 * 0.125 * 0.125, 1e-12);

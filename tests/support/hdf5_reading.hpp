@@ -49,6 +49,8 @@ inline std::vector<std::string> read_strings(hid_t file, const std::string& obje
 }
 
 /// Frames that the file itself counts as whole.
-inline std::size_t frame_count(hid_t file) { return std::size_t(read_attribute<std::int64_t>(file, "/VTKHDF/Steps", "NSteps")); }
+inline std::size_t frame_count(hid_t file) {
+  return std::size_t(read_attribute<std::int64_t>(file, "/VTKHDF/Steps", "NSteps"));
+}
 
 }  // namespace nanson::test

@@ -15,8 +15,8 @@ int main(int count, char** arguments) {
   using namespace nanson;
   if (count != 2) return 2;
   const Mesh mesh = test::beam(2, 2, 12);
-  const std::vector<FieldName> fields{test::field_named("displacement"), test::field_named("velocity"), test::field_named("pressure"),
-                                      test::field_named("P")};
+  const std::vector<FieldName> fields{test::field_named("displacement"), test::field_named("velocity"),
+                                      test::field_named("pressure"), test::field_named("P")};
   const auto from = provenance();
   ResultsFolder folder("sample", arguments[1]);
   folder.begin();

@@ -18,7 +18,9 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     std::random_device random;
-    do path_ = std::filesystem::temp_directory_path() / ("nanson_test_" + std::to_string(random()) + std::to_string(random()));
+    do
+      path_ = std::filesystem::temp_directory_path()
+              / ("nanson_test_" + std::to_string(random()) + std::to_string(random()));
     while (!std::filesystem::create_directory(path_));
   }
   ~TemporaryFolder() { std::filesystem::remove_all(path_); }
@@ -56,7 +58,9 @@ struct MshForm {
   bool parametric = false;
 };
 inline constexpr MshForm all_forms[] = {{false, false}, {false, true}, {true, false}, {true, true}};
-inline std::string form_name(const MshForm& form) { return std::string(form.v41 ? "4.1" : "2.2") + (form.binary ? " binary" : " text"); }
+inline std::string form_name(const MshForm& form) {
+  return std::string(form.v41 ? "4.1" : "2.2") + (form.binary ? " binary" : " text");
+}
 
 /// Numbers one after another, as text with blanks or as bytes.
 class MshOutput {
@@ -81,9 +85,13 @@ class MshOutput {
 
 inline void put_head(MshOutput& out, const MshFile& file, const MshForm& form) {
   out.text(std::string("$MeshFormat\n") + (form.v41 ? "4.1 " : "2.2 ") + (form.binary ? "1 8\n" : "0 8\n"));
-  if (form.binary) out.put<std::int32_t>(1), out.text("\n");
+  if (form.binary) {
+    out.put<std::int32_t>(1);
+    out.text("\n");
+  }
   out.text("$EndMeshFormat\n$PhysicalNames\n" + std::to_string(file.names.size()) + "\n");
-  for (const auto& [group, name] : file.names) out.text(std::to_string(group.first) + " " + std::to_string(group.second) + " \"" + name + "\"\n");
+  for (const auto& [group, name] : file.names)
+    out.text(std::to_string(group.first) + " " + std::to_string(group.second) + " \"" + name + "\"\n");
   out.text("$EndPhysicalNames\n");
 }
 
@@ -95,21 +103,33 @@ inline std::string write_msh22(const MshFile& file, const MshForm& form) {
     out.put<std::int32_t>(file.tags[a]);
     for (const double x : file.X[a]) out.put<double>(x);
     const int dimension = int(a % 4);
-    if (form.parametric) out.put<std::int32_t>(dimension), out.put<std::int32_t>(1);
+    if (form.parametric) {
+      out.put<std::int32_t>(dimension);
+      out.put<std::int32_t>(1);
+    }
     for (int i = 0; form.parametric && i < dimension && dimension < 3; ++i) out.put<double>(0.5);
     out.end_row();
   }
   std::size_t count = 0;
   for (const auto& e : file.entities) count += e.elements.size() * std::max<std::size_t>(1, e.physical.size());
-  out.text(std::string(form.binary ? "\n" : "") + (form.parametric ? "$EndParametricNodes\n" : "$EndNodes\n") + "$Elements\n" + std::to_string(count) + "\n");
+  out.text(std::string(form.binary ? "\n" : "") + (form.parametric ? "$EndParametricNodes\n" : "$EndNodes\n")
+           + "$Elements\n" + std::to_string(count) + "\n");
   int number = 0;
   for (const auto& e : file.entities)
     for (const int physical : e.physical.empty() ? std::vector<int>{0} : e.physical) {
-      if (form.binary) out.put<std::int32_t>(e.type), out.put<std::int32_t>(e.elements.size()), out.put<std::int32_t>(2);
+      if (form.binary) {
+        out.put<std::int32_t>(e.type);
+        out.put<std::int32_t>(e.elements.size());
+        out.put<std::int32_t>(2);
+      }
       for (const auto& nodes : e.elements) {
         out.put<std::int32_t>(++number);
-        if (!form.binary) out.put<std::int32_t>(e.type), out.put<std::int32_t>(2);
-        out.put<std::int32_t>(physical), out.put<std::int32_t>(e.tag);
+        if (!form.binary) {
+          out.put<std::int32_t>(e.type);
+          out.put<std::int32_t>(2);
+        }
+        out.put<std::int32_t>(physical);
+        out.put<std::int32_t>(e.tag);
         for (const auto node : nodes) out.put<std::int32_t>(node);
         out.end_row();
       }
@@ -120,7 +140,8 @@ inline std::string write_msh22(const MshFile& file, const MshForm& form) {
 
 inline void put_entities41(MshOutput& out, const MshFile& file) {
   for (int dimension = 0; dimension < 4; ++dimension)
-    out.put<std::int64_t>(std::count_if(file.entities.begin(), file.entities.end(), [&](const MshEntity& e) { return e.dimension == dimension; }));
+    out.put<std::int64_t>(std::count_if(file.entities.begin(), file.entities.end(),
+                                        [&](const MshEntity& e) { return e.dimension == dimension; }));
   out.end_row();
   for (int dimension = 0; dimension < 4; ++dimension)
     for (const auto& e : file.entities) {
@@ -129,7 +150,11 @@ inline void put_entities41(MshOutput& out, const MshFile& file) {
       for (int i = 0; i < (dimension ? 6 : 3); ++i) out.put<double>(0.25);
       out.put<std::int64_t>(e.physical.size());
       for (const int physical : e.physical) out.put<std::int32_t>(physical);
-      if (dimension) out.put<std::int64_t>(2), out.put<std::int32_t>(1), out.put<std::int32_t>(-2);
+      if (dimension) {
+        out.put<std::int64_t>(2);
+        out.put<std::int32_t>(1);
+        out.put<std::int32_t>(-2);
+      }
       out.end_row();
     }
 }
@@ -141,13 +166,24 @@ inline std::string write_msh41(const MshFile& file, const MshForm& form) {
   out.text("$Entities\n");
   put_entities41(out, file);
   out.text(end + "$EndEntities\n$Nodes\n");
-  const std::size_t half = file.X.size() / 2;      // two blocks
-  out.put<std::int64_t>(2), out.put<std::int64_t>(file.X.size()), out.put<std::int64_t>(1), out.put<std::int64_t>(99), out.end_row();
+  const std::size_t half = file.X.size() / 2;  // two blocks
+  out.put<std::int64_t>(2);
+  out.put<std::int64_t>(file.X.size());
+  out.put<std::int64_t>(1);
+  out.put<std::int64_t>(99);
+  out.end_row();
   for (const int block : {0, 1}) {
     const std::size_t first = block ? half : 0, last = block ? file.X.size() : half;
     const int dimension = block ? 2 : 1;
-    out.put<std::int32_t>(dimension), out.put<std::int32_t>(1), out.put<std::int32_t>(form.parametric), out.put<std::int64_t>(last - first), out.end_row();
-    for (std::size_t a = first; a < last; ++a) out.put<std::int64_t>(file.tags[a]), out.end_row();
+    out.put<std::int32_t>(dimension);
+    out.put<std::int32_t>(1);
+    out.put<std::int32_t>(form.parametric);
+    out.put<std::int64_t>(last - first);
+    out.end_row();
+    for (std::size_t a = first; a < last; ++a) {
+      out.put<std::int64_t>(file.tags[a]);
+      out.end_row();
+    }
     for (std::size_t a = first; a < last; ++a) {
       for (const double x : file.X[a]) out.put<double>(x);
       for (int i = 0; form.parametric && i < dimension; ++i) out.put<double>(0.5);
@@ -157,10 +193,18 @@ inline std::string write_msh41(const MshFile& file, const MshForm& form) {
   std::size_t count = 0;
   for (const auto& e : file.entities) count += e.elements.size();
   out.text(end + "$EndNodes\n$Elements\n");
-  out.put<std::int64_t>(file.entities.size()), out.put<std::int64_t>(count), out.put<std::int64_t>(1), out.put<std::int64_t>(count), out.end_row();
+  out.put<std::int64_t>(file.entities.size());
+  out.put<std::int64_t>(count);
+  out.put<std::int64_t>(1);
+  out.put<std::int64_t>(count);
+  out.end_row();
   std::int64_t number = 0;
   for (const auto& e : file.entities) {
-    out.put<std::int32_t>(e.dimension), out.put<std::int32_t>(e.tag), out.put<std::int32_t>(e.type), out.put<std::int64_t>(e.elements.size()), out.end_row();
+    out.put<std::int32_t>(e.dimension);
+    out.put<std::int32_t>(e.tag);
+    out.put<std::int32_t>(e.type);
+    out.put<std::int64_t>(e.elements.size());
+    out.end_row();
     for (const auto& nodes : e.elements) {
       out.put<std::int64_t>(++number);
       for (const auto node : nodes) out.put<std::int64_t>(node);
@@ -171,6 +215,8 @@ inline std::string write_msh41(const MshFile& file, const MshForm& form) {
   return out.str();
 }
 
-inline std::string write_msh(const MshFile& file, const MshForm& form) { return form.v41 ? write_msh41(file, form) : write_msh22(file, form); }
+inline std::string write_msh(const MshFile& file, const MshForm& form) {
+  return form.v41 ? write_msh41(file, form) : write_msh22(file, form);
+}
 
 }  // namespace nanson

@@ -11,7 +11,9 @@ namespace nanson::test {
 using Random = std::mt19937_64;
 
 /// In [least, most), the same on every platform.
-inline double uniform(Random& random, double least, double most) { return least + (most - least) * (static_cast<double>(random() >> 11) * 0x1p-53); }
+inline double uniform(Random& random, double least, double most) {
+  return least + (most - least) * (static_cast<double>(random() >> 11) * 0x1p-53);
+}
 
 inline Tensor<double> random_tensor(Random& random) {
   Tensor<double> A;
@@ -52,7 +54,10 @@ inline Tensor<double> random_rotation(Random& random) {
   double q[4], size = 0;
   while (size < 0.01 || size > 1) {
     size = 0;
-    for (double& c : q) c = uniform(random, -1, 1), size += c * c;
+    for (double& c : q) {
+      c = uniform(random, -1, 1);
+      size += c * c;
+    }
   }
   const double s = 2 / size, w = q[0], x = q[1], y = q[2], z = q[3];
   return {{{1 - s * (y * y + z * z), s * (x * y - w * z), s * (x * z + w * y)},

@@ -95,7 +95,8 @@ struct TempFolder {
   std::filesystem::path path;
   TempFolder() {
     static int count = 0;
-    path = std::filesystem::temp_directory_path() / ("nanson_scene_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
+    path = std::filesystem::temp_directory_path()
+           / ("nanson_scene_" + std::to_string(::getpid()) + "_" + std::to_string(++count));
     std::filesystem::create_directories(path);
   }
   TempFolder(const TempFolder&) = delete;
@@ -103,7 +104,8 @@ struct TempFolder {
   ~TempFolder() { std::filesystem::remove_all(path); }
 
   std::filesystem::path write(const std::string& name, const std::string& text) const {
-    std::filesystem::remove(path / name);  // a file that is truncated instead is flushed to disk when closed: 10 ms each on ext4
+    std::filesystem::remove(
+        path / name);  // a file that is truncated instead is flushed to disk when closed: 10 ms each on ext4
     std::ofstream(path / name, std::ios::binary) << text;
     return path / name;
   }
@@ -140,11 +142,13 @@ struct BadEdit {
 inline void expect_each_refused(const std::string& scene, const std::vector<BadEdit>& edits) {
   for (const BadEdit& b : edits) {
     const SceneResult r = read_text(edited(scene, b.from, b.to));
-    EXPECT_TRUE(r.errors.size() == 1 && r.errors[0].starts_with(b.error)) << b.to << "\n  expected " << b.error << joined(r.errors);
+    EXPECT_TRUE(r.errors.size() == 1 && r.errors[0].starts_with(b.error))
+        << b.to << "\n  expected " << b.error << joined(r.errors);
   }
 }
 
-inline void expect_each_accepted(const std::string& scene, const std::vector<std::pair<std::string, std::string>>& edits) {
+inline void expect_each_accepted(const std::string& scene,
+                                 const std::vector<std::pair<std::string, std::string>>& edits) {
   for (const auto& [from, to] : edits) {
     const SceneResult r = read_text(edited(scene, from, to));
     EXPECT_TRUE(r.errors.empty()) << to << joined(r.errors);

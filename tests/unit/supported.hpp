@@ -17,7 +17,9 @@ inline Scene scene_of(const std::vector<Condition>& conditions) {
   for (const Condition& c : conditions) {
     BoundarySpec spec;
     for (const std::string& face : c.faces) spec.faces.push_back({face, ""});
-    spec.kind = c.kind, spec.velocity = c.velocity, spec.held = c.held;
+    spec.kind = c.kind;
+    spec.velocity = c.velocity;
+    spec.held = c.held;
     scene.boundary.push_back(spec);
   }
   return scene;
@@ -28,7 +30,8 @@ struct Supported {
   Order order;
   Boundary boundary;
 
-  Supported(RawMesh raw, const std::vector<Condition>& conditions) : Supported(finished(std::move(raw)), scene_of(conditions)) {}
+  Supported(RawMesh raw, const std::vector<Condition>& conditions)
+      : Supported(finished(std::move(raw)), scene_of(conditions)) {}
   Supported(Mesh m, const Scene& scene) : mesh(std::move(m)) {
     order = make_order(make_dual(mesh), static_cast<int>(mesh.X.size()));
     boundary = make_boundary(scene, mesh, order);

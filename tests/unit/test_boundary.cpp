@@ -19,9 +19,11 @@ bool on(const Vec3& X, int axis, double at) { return std::abs(X[axis] - at) < 1e
 RawMesh wedge(double angle, bool one_patch) {
   RawMesh raw;
   for (const double z : {0.0, 1.0})
-    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(std::cos(angle), std::sin(angle))}) raw.X.push_back({x, y, z});
+    for (const auto& [x, y] : {std::pair(0.0, 0.0), std::pair(1.0, 0.0), std::pair(std::cos(angle), std::sin(angle))})
+      raw.X.push_back({x, y, z});
   raw.tets = {{0, 1, 2, 5}, {0, 1, 5, 4}, {0, 4, 5, 3}};
-  raw.tet_region = {0, 0, 0}, raw.region_names = {"all"};
+  raw.tet_region = {0, 0, 0};
+  raw.region_names = {"all"};
   raw.triangles = {{0, 1, 4}, {0, 4, 3}, {0, 2, 5}, {0, 5, 3}};
   raw.triangle_patch = {0, 0, one_patch ? 0 : 1, one_patch ? 0 : 1};
   raw.patch_names = {"low"};
@@ -141,7 +143,8 @@ TEST(Boundary, FacesOfOnePatchFormACreaseFromThirtyDegreesOn) {
 
 TEST(Boundary, AWedgeOfOneDegreeHoldsTwoDistinctDirections) {
   for (const bool one_patch : {false, true}) {
-    const std::vector<std::string> faces = one_patch ? std::vector<std::string>{"low"} : std::vector<std::string>{"low", "high"};
+    const std::vector<std::string> faces = one_patch ? std::vector<std::string>{"low"}
+                                                     : std::vector<std::string>{"low", "high"};
     const Supported s(wedge(degree, one_patch), {{faces, BoundaryKind::symmetric}});
     for (const int n : {0, 3}) {
       const Constraint h = s.at(n);
@@ -163,7 +166,8 @@ TEST(Boundary, DirectionsCloserThanAMilliradianAreOne) {
 }
 
 TEST(Boundary, ConstraintsStandByRowInTheRangesOfTheirParts) {
-  const Supported s(raw_box({14, 14, 14}), {{{"xmin", "zmax"}, BoundaryKind::symmetric}, {{"ymin"}, BoundaryKind::fixed}});
+  const Supported s(raw_box({14, 14, 14}),
+                    {{{"xmin", "zmax"}, BoundaryKind::symmetric}, {{"ymin"}, BoundaryKind::fixed}});
   ASSERT_EQ(s.order.parts.size(), 3u);
   int next = 0, row = -1;
   for (const Part& p : s.order.parts) {

@@ -10,14 +10,18 @@ using namespace nanson::test;
 
 namespace {
 
-constexpr std::array<bool, 3> x_only{true, false, false}, y_only{false, true, false}, z_only{false, false, true}, not_y{true, false, true};
+constexpr std::array<bool, 3> x_only{true, false, false}, y_only{false, true, false}, z_only{false, false, true},
+    not_y{true, false, true};
 
 /// One tet without a face along an axis; faces a, b, c meet at node 0, face d is the one opposite.
 RawMesh oblique_tet() {
   RawMesh raw;
   raw.X = {{0, 0, 0}, {1, 0.1, -0.2}, {0.2, 1, 0.3}, {0.3, 0.4, 1}};
-  raw.tets = {{0, 1, 2, 3}}, raw.tet_region = {0}, raw.region_names = {"all"};
-  raw.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}}, raw.triangle_patch = {0, 1, 2, 3};
+  raw.tets = {{0, 1, 2, 3}};
+  raw.tet_region = {0};
+  raw.region_names = {"all"};
+  raw.triangles = {{0, 1, 2}, {0, 1, 3}, {0, 2, 3}, {1, 2, 3}};
+  raw.triangle_patch = {0, 1, 2, 3};
   raw.patch_names = {"a", "b", "c", "d"};
   return raw;
 }
@@ -65,7 +69,8 @@ TEST(BoundaryVelocity, ReproducesItsComponentsOnObliqueDirectionsInEveryOrder) {
 }
 
 TEST(BoundaryVelocity, ReproducesItsComponentBetweenTwoRollers) {
-  const Supported s(oblique_tet(), {{{"a", "c"}, BoundaryKind::symmetric}, {{"b"}, BoundaryKind::velocity, {0, 0, 1.5}, z_only}});
+  const Supported s(oblique_tet(),
+                    {{{"a", "c"}, BoundaryKind::symmetric}, {{"b"}, BoundaryKind::velocity, {0, 0, 1.5}, z_only}});
   const Constraint h = s.at(0);
   ASSERT_EQ(h.count, 3);
   const Vec3 v = prescribed(h, {99, 2});
@@ -87,7 +92,8 @@ TEST(BoundaryVelocity, ThreeConditionsOnOneNodeKeepTheirOwnFactors) {
 }
 
 TEST(BoundaryConflict, TheFirstFaceOfTheSceneBooksTheDirection) {
-  const Condition up{{"zmin"}, BoundaryKind::velocity, {0, 0, 1}, z_only}, away{{"xmin"}, BoundaryKind::velocity, {3, 0, 2}, not_y};
+  const Condition up{{"zmin"}, BoundaryKind::velocity, {0, 0, 1}, z_only},
+      away{{"xmin"}, BoundaryKind::velocity, {3, 0, 2}, not_y};
   const int corner = 0;  // on both faces
   {
     const Supported s(raw_box({2, 2, 2}), {up, away});
@@ -124,16 +130,21 @@ TEST(BoundaryConflict, AnObliqueRollerBeforeAClampIsCompletedByIt) {
   const Constraint h = s.at(0);
   ASSERT_EQ(h.count, 3);
   expect_orthonormal(h);
-  EXPECT_NEAR(free_part({.node = 0, .count = 1, .d = {{h.d[0][0], h.d[0][1], h.d[0][2]}}}, unit_normal(s.mesh, 0, 1, 2)), 0, 1e-15);
+  EXPECT_NEAR(
+      free_part({.node = 0, .count = 1, .d = {{h.d[0][0], h.d[0][1], h.d[0][2]}}}, unit_normal(s.mesh, 0, 1, 2)), 0,
+      1e-15);
   EXPECT_EQ(h.face[0], 0);
   EXPECT_EQ(h.face[1], 1);
   EXPECT_EQ(h.face[2], 1);
 }
 
 TEST(BoundaryLoads, EveryLoadedFaceHasOneRowAndCarriesAThirdOfItsTractionOnEachCorner) {
-  Scene scene = scene_of({{{"zmax"}, BoundaryKind::traction}, {{"zmax", "xmin"}, BoundaryKind::pressure},
-                          {{"zmin"}, BoundaryKind::fixed}, {{"ymin"}, BoundaryKind::free}});
-  scene.boundary[0].traction = {1, 2, -3}, scene.boundary[1].pressure = 7;
+  Scene scene = scene_of({{{"zmax"}, BoundaryKind::traction},
+                          {{"zmax", "xmin"}, BoundaryKind::pressure},
+                          {{"zmin"}, BoundaryKind::fixed},
+                          {{"ymin"}, BoundaryKind::free}});
+  scene.boundary[0].traction = {1, 2, -3};
+  scene.boundary[1].pressure = 7;
   const Supported s(box({2, 3, 2}), scene);
   const std::size_t top = 2 * 2 * 3, side = 2 * 3 * 2;
   ASSERT_EQ(s.boundary.slot_nodes.size(), top + side);
@@ -156,7 +167,8 @@ TEST(BoundaryLoads, EveryLoadedFaceHasOneRowAndCarriesAThirdOfItsTractionOnEachC
       EXPECT_EQ(slot >= 0, patch == "zmax" || patch == "xmin");
       if (slot < 0) continue;
       const auto& nodes = s.boundary.slot_nodes[slot];
-      for (const int corner : {r, s.order.corner_b[g], s.order.corner_c[g]}) EXPECT_EQ(std::count(nodes.begin(), nodes.end(), corner), 1);
+      for (const int corner : {r, s.order.corner_b[g], s.order.corner_c[g]})
+        EXPECT_EQ(std::count(nodes.begin(), nodes.end(), corner), 1);
     }
   EXPECT_EQ(s.boundary.free_faces, (std::vector<std::string>{"xmax", "ymax"}));
 }

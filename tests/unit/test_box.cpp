@@ -39,7 +39,10 @@ double volume(const Mesh& mesh) {
 Vec3 area(const Mesh& mesh, const Face& face) {
   const auto &a = mesh.X[face.nodes[0]], &b = mesh.X[face.nodes[1]], &c = mesh.X[face.nodes[2]];
   Vec3 u, v;
-  for (int i = 0; i < 3; ++i) u[i] = b[i] - a[i], v[i] = c[i] - a[i];
+  for (int i = 0; i < 3; ++i) {
+    u[i] = b[i] - a[i];
+    v[i] = c[i] - a[i];
+  }
   return {(u[1] * v[2] - u[2] * v[1]) / 2, (u[2] * v[0] - u[0] * v[2]) / 2, (u[0] * v[1] - u[1] * v[0]) / 2};
 }
 
@@ -65,7 +68,8 @@ TEST(Box, HasSixTetsACellAndTwoTrianglesACellFace) {
 
 TEST(Box, ConformsForAnyNumbersOfCellsInBothSplits) {
   for (const Split split : {Split::kuhn, Split::alternating})
-    for (const auto& cells : std::vector<std::array<int, 3>>{{1, 1, 1}, {2, 1, 1}, {1, 3, 2}, {2, 2, 2}, {3, 3, 3}, {3, 2, 5}}) {
+    for (const auto& cells :
+         std::vector<std::array<int, 3>>{{1, 1, 1}, {2, 1, 1}, {1, 3, 2}, {2, 2, 2}, {3, 3, 3}, {3, 2, 5}}) {
       const Mesh mesh = finished(box(cells, split));
       EXPECT_EQ(mesh.faces.size(), 4u * (cells[0] * cells[1] + cells[1] * cells[2] + cells[0] * cells[2]));
       EXPECT_EQ(mesh.unnamed_faces, 0);
@@ -76,7 +80,8 @@ TEST(Box, ConformsForAnyNumbersOfCellsInBothSplits) {
 
 TEST(Box, AllTetsHaveTheSameVolume) {
   const Mesh mesh = finished(box({3, 2, 2}, Split::alternating));
-  for (const auto& t : mesh.tets) EXPECT_NEAR(tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]), 2 * 3 * 0.7 / 72, 1e-14);
+  for (const auto& t : mesh.tets)
+    EXPECT_NEAR(tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]), 2 * 3 * 0.7 / 72, 1e-14);
 }
 
 TEST(Box, FacesLieOnTheirPlanesAndPointOutward) {
@@ -98,13 +103,17 @@ TEST(Box, FacesLieOnTheirPlanesAndPointOutward) {
 
 TEST(Box, KuhnSplitRepeatsItsDiagonalAndAlternatingMirrorsIt) {
   const auto node = [](int i, int j, int k) { return (k * 3 + j) * 3 + i; };
-  const auto kuhn = edges(make_box(box({2, 2, 2}, Split::kuhn))), mirrored = edges(make_box(box({2, 2, 2}, Split::alternating)));
+  const auto kuhn = edges(make_box(box({2, 2, 2}, Split::kuhn))),
+             mirrored = edges(make_box(box({2, 2, 2}, Split::alternating)));
   const auto has = [](const auto& all, int a, int b) { return all.contains({std::min(a, b), std::max(a, b)}); };
   const int centre = node(1, 1, 1);
   int kuhn_diagonals = 0, mirrored_diagonals = 0;
   for (const int i : {0, 2})
     for (const int j : {0, 2})
-      for (const int k : {0, 2}) kuhn_diagonals += has(kuhn, centre, node(i, j, k)), mirrored_diagonals += has(mirrored, centre, node(i, j, k));
+      for (const int k : {0, 2}) {
+        kuhn_diagonals += has(kuhn, centre, node(i, j, k));
+        mirrored_diagonals += has(mirrored, centre, node(i, j, k));
+      }
   EXPECT_EQ(kuhn_diagonals, 2);
   EXPECT_EQ(mirrored_diagonals, 8);
 }
@@ -119,7 +128,8 @@ TEST(Box, AlternatingSplitIsMirrorSymmetricForEvenCells) {
       at[axis] = std::array<int, 3>{4, 2, 6}[axis] - at[axis];
       return node(at[0], at[1], at[2]);
     };
-    for (const auto& [a, b] : all) EXPECT_TRUE(all.contains({std::min(mirror(a), mirror(b)), std::max(mirror(a), mirror(b))}));
+    for (const auto& [a, b] : all)
+      EXPECT_TRUE(all.contains({std::min(mirror(a), mirror(b)), std::max(mirror(a), mirror(b))}));
   }
 }
 
@@ -130,7 +140,8 @@ TEST(Box, PerturbMovesInnerNodesOnlyAndByTheShareAtMost) {
   double largest = 0;
   for (std::size_t a = 0; a < regular.X.size(); ++a) {
     bool inner = true;
-    for (int c = 0; c < 3; ++c) inner = inner && regular.X[a][c] > low[c] + 1e-9 && regular.X[a][c] < low[c] + size[c] - 1e-9;
+    for (int c = 0; c < 3; ++c)
+      inner = inner && regular.X[a][c] > low[c] + 1e-9 && regular.X[a][c] < low[c] + size[c] - 1e-9;
     inner_nodes += inner;
     for (int c = 0; c < 3; ++c) {
       const double shift = std::abs(moved.X[a][c] - regular.X[a][c]) / h[c];
@@ -150,13 +161,15 @@ TEST(Box, PerturbIsTheSameEveryTime) {
   unit.size = {2, 2, 2};
   unit.cells = {2, 2, 2};
   unit.perturb = 1;
-  const Vec3 centre = make_box(unit).X[13];        // 1 + a number from the generator: fixed by the seed, on every platform
+  const Vec3 centre = make_box(unit).X[13];  // 1 + a number from the generator: fixed by the seed, on every platform
   EXPECT_DOUBLE_EQ(centre[0], 0.53900837065371632);
   EXPECT_DOUBLE_EQ(centre[1], 0.94809187627272484);
   EXPECT_DOUBLE_EQ(centre[2], 1.7137954800555661);
 }
 
-TEST(Box, PerturbedBoxKeepsItsVolume) { EXPECT_NEAR(volume(finished(box({5, 4, 3}, Split::alternating, 0.2))), 2 * 3 * 0.7, 1e-13); }
+TEST(Box, PerturbedBoxKeepsItsVolume) {
+  EXPECT_NEAR(volume(finished(box({5, 4, 3}, Split::alternating, 0.2))), 2 * 3 * 0.7, 1e-13);
+}
 
 TEST(Box, PerturbationThatTurnsTetsInsideOutIsRefused) {
   std::vector<std::string> errors;

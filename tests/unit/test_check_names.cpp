@@ -18,13 +18,16 @@ TEST(CheckNames, KnownNamesPass) {
 }
 
 TEST(CheckNames, UnknownFaceListsTheKnownOnes) {
-  SceneResult r = read_text(edited(column_scene, "[\"zmax\", \"xmax\"]", "[\"zmax\", \"xmx\"]"), {"boundary.0.face=floor"});
+  SceneResult r = read_text(edited(column_scene, "[\"zmax\", \"xmax\"]", "[\"zmax\", \"xmx\"]"),
+                            {"boundary.0.face=floor"});
   ASSERT_TRUE(r.errors.empty()) << joined(r.errors);
   const std::vector<std::string> errors = check_names(r.scene, box_mesh());
   ASSERT_EQ(errors.size(), 2u) << joined(errors);
-  EXPECT_EQ(errors[0], "--set #1: boundary.0.face = \"floor\": unknown face, allowed: xmin | xmax | ymin | ymax | zmin | zmax");
-  EXPECT_TRUE(errors[1].ends_with(
-      "scene.toml:35:17: boundary.1.face = \"xmx\": unknown face, did you mean \"xmax\"? allowed: xmin | xmax | ymin | ymax | zmin | zmax"))
+  EXPECT_EQ(errors[0],
+            "--set #1: boundary.0.face = \"floor\": unknown face, allowed: xmin | xmax | ymin | ymax | zmin | zmax");
+  EXPECT_TRUE(
+      errors[1].ends_with("scene.toml:35:17: boundary.1.face = \"xmx\": unknown face, did you mean \"xmax\"? allowed: "
+                          "xmin | xmax | ymin | ymax | zmin | zmax"))
       << errors[1];
 }
 
@@ -38,10 +41,13 @@ TEST(CheckNames, MeshWithoutNamedFacesSaysSo) {
 }
 
 TEST(CheckNames, ProbeOutsideTheMeshIsToldItsBox) {
-  const auto probe = [](const std::string& at) { return check_names(read_text(edited(column_scene, "[0.5, 0.5, 6.0]", at)).scene, box_mesh()); };
+  const auto probe = [](const std::string& at) {
+    return check_names(read_text(edited(column_scene, "[0.5, 0.5, 6.0]", at)).scene, box_mesh());
+  };
   ASSERT_EQ(probe("[0.5, 0.5, 6.1]").size(), 1u);
-  EXPECT_TRUE(probe("[0.5, 0.5, 6.1]")[0].ends_with(
-      "scene.toml:58:32: output.probes.tip.at = [0.5, 0.5, 6.1]: lies outside the mesh, which spans [-0.5, -0.5, 0] to [0.5, 0.5, 6]"))
+  EXPECT_TRUE(
+      probe("[0.5, 0.5, 6.1]")[0].ends_with("scene.toml:58:32: output.probes.tip.at = [0.5, 0.5, 6.1]: lies outside "
+                                            "the mesh, which spans [-0.5, -0.5, 0] to [0.5, 0.5, 6]"))
       << probe("[0.5, 0.5, 6.1]")[0];
   EXPECT_EQ(probe("[-0.6, 0.5, 6]").size(), 1u);
   EXPECT_EQ(probe("[0.5, 0.5000000001, 6.0]").size(), 0u);

@@ -12,7 +12,8 @@ namespace {
 struct Shell {
   test::TemporaryFolder folder;
   ChildEnd run(const std::string& script, const ChildLimits& limits = {}, int signal = 0) {
-    return run_child({"/bin/sh", "-c", script}, folder / "log.txt", limits, [&] { return std::filesystem::exists(folder / "ready") ? signal : 0; });
+    return run_child({"/bin/sh", "-c", script}, folder / "log.txt", limits,
+                     [&] { return std::filesystem::exists(folder / "ready") ? signal : 0; });
   }
   std::string ready() const { return "touch '" + (folder / "ready").string() + "'; "; }
 };
@@ -45,7 +46,9 @@ TEST(ChildProcess, ThatDoesNotListenIsKilled) {
 
 TEST(ChildProcess, ASignalIsPassedOnOnce) {
   Shell shell;
-  const ChildEnd end = shell.run("trap 'echo interrupted' INT; " + shell.ready() + "for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.02; done; exit 7", {}, SIGINT);
+  const ChildEnd end = shell.run(
+      "trap 'echo interrupted' INT; " + shell.ready() + "for i in 1 2 3 4 5 6 7 8 9 10; do sleep 0.02; done; exit 7",
+      {}, SIGINT);
   EXPECT_EQ(end.stopped, SIGINT);
   EXPECT_EQ(end.code, 7);
   EXPECT_EQ(test::read_text(shell.folder / "log.txt"), "interrupted\n");

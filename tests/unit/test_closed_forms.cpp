@@ -21,7 +21,8 @@ TEST(LinearElastic, StressIsHookesLaw) {
   const double trace = 0.01 - 0.03 + 0.08;
   for (int i = 0; i < 3; ++i)
     for (int I = 0; I < 3; ++I) {
-      const double eps = 0.5 * (F[i][I] + F[I][i]) - (i == I), expected = 2 * m.mu * eps + (i == I ? lambda * trace : 0.0);
+      const double eps = 0.5 * (F[i][I] + F[I][i]) - (i == I),
+                   expected = 2 * m.mu * eps + (i == I ? lambda * trace : 0.0);
       EXPECT_NEAR(s.P[i][I], expected, 1e-14 * m.kappa);
     }
   EXPECT_NEAR(s.Sigma_J, m.kappa * trace, 1e-14 * m.kappa);
@@ -57,7 +58,8 @@ TEST(Volumetric, EnergiesAndTheirSlopesVanishAtOneWhereTheStiffnessIsKappa) {
     EXPECT_EQ(VolumetricEnergy<v>::dU(1.0, 31), 0);
     EXPECT_EQ(VolumetricEnergy<v>::d2U(1.0, 31), 31);
   };
-  check.template operator()<quadratic>(), check.template operator()<barrier>();
+  check.template operator()<quadratic>();
+  check.template operator()<barrier>();
 }
 
 TEST(Volumetric, OnlyTheBarrierIsInfiniteAtZero) {
@@ -90,9 +92,12 @@ TEST(FiniteStrain, UniformStretchHasThePressureOfTheVolumetricEnergyAlone) {
     EXPECT_LE(largest_entry(sum(P, I3, -dU * a * a)), 1e-13 * m.kappa) << Material_::name();
   };
   const double quadratic_dU = 31 * (J - 1), barrier_dU = 15.5 * (J - 1 / J);
-  check(pF<neo_hookean, quadratic, Isochoric::F>{}, false, quadratic_dU), check(pF<neo_hookean, barrier, Isochoric::F>{}, false, barrier_dU);
-  check(pF<mooney_rivlin, quadratic, Isochoric::F>{}, true, quadratic_dU), check(pF<mooney_rivlin, barrier, Isochoric::F>{}, true, barrier_dU);
-  check(pFJ<mooney_rivlin, quadratic, Isochoric::J>{}, true, quadratic_dU), check(pFHJ<mooney_rivlin, barrier, Isochoric::F>{}, true, barrier_dU);
+  check(pF<neo_hookean, quadratic, Isochoric::F>{}, false, quadratic_dU);
+  check(pF<neo_hookean, barrier, Isochoric::F>{}, false, barrier_dU);
+  check(pF<mooney_rivlin, quadratic, Isochoric::F>{}, true, quadratic_dU);
+  check(pF<mooney_rivlin, barrier, Isochoric::F>{}, true, barrier_dU);
+  check(pFJ<mooney_rivlin, quadratic, Isochoric::J>{}, true, quadratic_dU);
+  check(pFHJ<mooney_rivlin, barrier, Isochoric::F>{}, true, barrier_dU);
 }
 
 TEST(FiniteStrain, SmallStrainsFollowHookesLaw) {
@@ -107,13 +112,19 @@ TEST(FiniteStrain, SmallStrainsFollowHookesLaw) {
       EXPECT_LE(largest_entry(sum(P, linear, -1)), 50 * m.kappa * h * h) << Material_::name();
     }
   };
-  check(pF<neo_hookean, quadratic, Isochoric::F>{}, false), check(pF<neo_hookean, barrier, Isochoric::F>{}, false);
-  check(pF<mooney_rivlin, quadratic, Isochoric::F>{}, true), check(pFHJ<mooney_rivlin, barrier, Isochoric::J>{}, true);
+  check(pF<neo_hookean, quadratic, Isochoric::F>{}, false);
+  check(pF<neo_hookean, barrier, Isochoric::F>{}, false);
+  check(pF<mooney_rivlin, quadratic, Isochoric::F>{}, true);
+  check(pFHJ<mooney_rivlin, barrier, Isochoric::J>{}, true);
 }
 
 TEST(Constants, AreThoseOfYoungsModulusAndPoissonsRatio) {
   MaterialSpec spec;
-  spec.law = Law::mooney_rivlin, spec.density = 1100, spec.youngs_modulus = 17e6, spec.poissons_ratio = 0.45, spec.xi = 2e5;
+  spec.law = Law::mooney_rivlin;
+  spec.density = 1100;
+  spec.youngs_modulus = 17e6;
+  spec.poissons_ratio = 0.45;
+  spec.xi = 2e5;
   const MaterialConstants m = constants_of(spec);
   EXPECT_NEAR(9 * m.kappa * m.mu / (3 * m.kappa + m.mu), 17e6, 1e-6);
   EXPECT_NEAR((3 * m.kappa - 2 * m.mu) / (2 * (3 * m.kappa + m.mu)), 0.45, 1e-14);

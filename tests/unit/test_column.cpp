@@ -16,7 +16,8 @@ constexpr double NaN = std::numeric_limits<double>::quiet_NaN(), infinity = std:
 
 /// Equal bits, or both NaN (whose sign and payload the hardware chooses).
 ::testing::AssertionResult same(double a, double b) {
-  if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (a != a && b != b)) return ::testing::AssertionSuccess();
+  if (std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b) || (a != a && b != b))
+    return ::testing::AssertionSuccess();
   return ::testing::AssertionFailure() << a << " and " << b << " differ by " << b - a;
 }
 
@@ -47,10 +48,13 @@ double log_uniform(Random& random) { return std::pow(10, uniform(random, -300, 3
 TEST(Column, FmaRoundsAlikeInEveryWidth) {
   Random random(1);
   for (int k = 0; k < 2000; ++k) {
-    const Vec8 a = eight_of(random), b = eight_of(random), c = eight_of(random), wide = nanson::fma(a, b, c), minus = nanson::fnma(a, b, c);
+    const Vec8 a = eight_of(random), b = eight_of(random), c = eight_of(random), wide = nanson::fma(a, b, c),
+               minus = nanson::fnma(a, b, c);
     const Vec4 narrow = nanson::fma(low(a), low(b), low(c)), minus4 = nanson::fnma(low(a), low(b), low(c));
-    for (int i = 0; i < 8; ++i) EXPECT_TRUE(same(wide[i], nanson::fma(a[i], b[i], c[i])) && same(minus[i], nanson::fma(-a[i], b[i], c[i])));
-    for (int i = 0; i < 4; ++i) EXPECT_TRUE(same(narrow[i], nanson::fma(a[i], b[i], c[i])) && same(minus4[i], nanson::fma(-a[i], b[i], c[i])));
+    for (int i = 0; i < 8; ++i)
+      EXPECT_TRUE(same(wide[i], nanson::fma(a[i], b[i], c[i])) && same(minus[i], nanson::fma(-a[i], b[i], c[i])));
+    for (int i = 0; i < 4; ++i)
+      EXPECT_TRUE(same(narrow[i], nanson::fma(a[i], b[i], c[i])) && same(minus4[i], nanson::fma(-a[i], b[i], c[i])));
   }
 }
 
@@ -97,7 +101,8 @@ TEST(InverseCubeRoot, IsWithinTwoUlps) {
     worst = std::max(worst, ulps_off(inverse_cube_root(x), x));
   }
   for (int e = -996; e <= 996; ++e)  // both sides of every power of two
-    for (const double x : {std::ldexp(1, e), std::nextafter(std::ldexp(1, e), 0), std::nextafter(std::ldexp(1, e), infinity)})
+    for (const double x :
+         {std::ldexp(1, e), std::nextafter(std::ldexp(1, e), 0), std::nextafter(std::ldexp(1, e), infinity)})
       worst = std::max(worst, ulps_off(inverse_cube_root(x), x));
   for (int k = 0; k < 100000; ++k) {  // where J lives
     const double x = uniform(random, 0.01, 10);
@@ -142,8 +147,12 @@ TEST(Column, LoadTransposedTakesEightRowsAsFourLanes) {
 
 TEST(Column, StoreTransposedIsTheInverseAndTouchesNothingElse) {
   for (const int stride : {4, 16, 24}) {
-    alignas(64) double rows[8 * 24], back[8 * 24];
-    for (int k = 0; k < 8 * 24; ++k) rows[k] = k, back[k] = -1;
+    alignas(64) double rows[8 * 24];
+    back[8 * 24];
+    for (int k = 0; k < 8 * 24; ++k) {
+      rows[k] = k;
+      back[k] = -1;
+    }
     Vec8 c[4];
     load_transposed(rows, stride, c[0], c[1], c[2], c[3]);
     store_transposed(back, stride, c[0], c[1], c[2], c[3]);

@@ -104,8 +104,8 @@ TEST(ConfigTable, KeysThatWereNotAskedForAreReportedAtTheEnd) {
   r.t.pass(std::array<std::string_view, 6>{"whole", "far", "wide", "three", "cells", "names"});
   r.t.only("kind", {}, std::array<std::string_view, 1>{"word"});
   r.t.finish();
-  EXPECT_EQ(listed(r.d),
-      (std::vector<std::string>{"f.toml:8:1: s.flag = 1: unknown key, allowed: number", "f.toml:9:8: s.word = \"kuhm\": is not a key of kind"}));
+  EXPECT_EQ(listed(r.d), (std::vector<std::string>{"f.toml:8:1: s.flag = 1: unknown key, allowed: number",
+                                                   "f.toml:9:8: s.word = \"kuhm\": is not a key of kind"}));
 }
 
 }  // namespace

@@ -13,9 +13,11 @@ namespace {
 /// One part of eight nodes without edges; node 0 owns two corners, (0; 1, 2) loaded and (0; 2, 3) free.
 struct Corners {
   static constexpr int rows = 8;
-  Aligned<double> X = Aligned<double>(row::X * rows), W = Aligned<double>(row::W * rows), PH = Aligned<double>(row::PH * rows);
+  Aligned<double> X = Aligned<double>(row::X * rows), W = Aligned<double>(row::W * rows),
+                  PH = Aligned<double>(row::PH * rows);
   Aligned<double> G = Aligned<double>(row::G * rows), loads = Aligned<double>(4);
-  std::int32_t none[64] = {}, begin[rows + 1] = {0, 2, 2, 2, 2, 2, 2, 2, 2}, b[2] = {1, 2}, c[2] = {2, 3}, load[2] = {0, -1};
+  std::int32_t none[64] = {}, begin[rows + 1] = {0, 2, 2, 2, 2, 2, 2, 2, 2}, b[2] = {1, 2}, c[2] = {2, 3},
+               load[2] = {0, -1};
   double C[3][2], zero[64] = {};
   Coefficients k;
   alignas(64) double force[8];
@@ -26,18 +28,23 @@ struct Corners {
     for (auto& Ci : C)
       for (double& x : Ci) x = uniform(random, -1, 1);
     for (int i = 0; i < 3; ++i) loads[i] = uniform(random, -1, 1);
-    k.rho_cp = 3, k.rho_cs = 1;
+    k.rho_cp = 3;
+    k.rho_cs = 1;
   }
   /// Force on node 0 through corner g.
   const double* run(FluxCorrection correction, int g) {
     PhysicsSpec physics;
     physics.flux_correction = correction;
     Rows r{};
-    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.loads = loads.data();
+    r.X = X.data();
+    r.W = W.data();
+    r.PH = PH.data();
+    r.G = G.data();
+    r.loads = loads.data();
     for (double& f : force) f = -7;
     find_part_functions(physics, MaterialSpec{})
-        .edge_flux({0, rows, 0, 0, 0, 2, 0, 0}, {none, none, {zero, zero, zero}}, {b, c, {C[0], C[1], C[2]}, load}, {none, none, none, none, begin}, r, k,
-                   {nullptr, force, nullptr, nullptr});
+        .edge_flux({0, rows, 0, 0, 0, 2, 0, 0}, {none, none, {zero, zero, zero}}, {b, c, {C[0], C[1], C[2]}, load},
+                   {none, none, none, none, begin}, r, k, {nullptr, force, nullptr, nullptr});
     return force + 4 * g;
   }
   double adjoint(int g, int i) const {

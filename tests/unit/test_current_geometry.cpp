@@ -14,11 +14,14 @@ using namespace nanson::test;
 namespace {
 
 struct CurrentDual : ::testing::TestWithParam<Split> {
-  std::deque<Scene> scenes;  // simulations point into them
+  std::deque<Scene> scenes;                        // simulations point into them
   Mesh mesh = box({13, 12, 10}, GetParam(), 0.2);  // two parts
   Simulation start(Description d) {
     Scene& scene = scenes.emplace_back();
-    scene.material.density = 1000, scene.material.youngs_modulus = 1e6, scene.material.poissons_ratio = 0.3, scene.time.end = 1;
+    scene.material.density = 1000;
+    scene.material.youngs_modulus = 1e6;
+    scene.material.poissons_ratio = 0.3;
+    scene.time.end = 1;
     scene.physics.description = d;
     return make_simulation(scene, mesh, 1);
   }
@@ -34,9 +37,12 @@ struct CurrentDual : ::testing::TestWithParam<Split> {
     return moved;
   }
 };
-INSTANTIATE_TEST_SUITE_P(Splits, CurrentDual, ::testing::Values(Split::alternating, Split::kuhn), [](const auto& info) { return std::string(word(info.param)); });
+INSTANTIATE_TEST_SUITE_P(Splits, CurrentDual, ::testing::Values(Split::alternating, Split::kuhn),
+                         [](const auto& info) { return std::string(word(info.param)); });
 
-Vec3 bent(const Vec3& X) { return {X[0] + 0.2 * std::sin(X[1] + X[2]), 1.1 * X[1] - 0.1 * X[0] * X[2], 0.9 * X[2] + 0.15 * std::cos(2 * X[0])}; }
+Vec3 bent(const Vec3& X) {
+  return {X[0] + 0.2 * std::sin(X[1] + X[2]), 1.1 * X[1] - 0.1 * X[0] * X[2], 0.9 * X[2] + 0.15 * std::cos(2 * X[0])};
+}
 
 /// Largest |sum c_ab + sum c_gamma| / sum |c| over the nodes.
 double closure(const Simulation& s) {
@@ -45,7 +51,7 @@ double closure(const Simulation& s) {
   std::vector<Vec3> sum(s.order.rows, Vec3{});
   std::vector<double> size(s.order.rows, 0.0);
   for (int r = 0; r < s.order.rows; ++r) {
-    const auto add = [&](double sign, const double* const (&c)[3], int k) {
+    const auto add = [&](double sign, const double* const(&c)[3], int k) {
       for (int i = 0; i < 3; ++i) sum[r][i] += sign * c[i][k];
       size[r] += norm({c[0][k], c[1][k], c[2][k]});
     };
@@ -65,8 +71,12 @@ double difference(const Simulation& s, const Order& expected) {
   const CornerArrays g = flux_corners(s);
   double worst = 0, largest = 0;
   for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < expected.out.back(); ++k) worst = std::max(worst, std::abs(e.c[i][k] - expected.C[i][k])), largest = std::max(largest, edge_size(expected.edges(), k));
-    for (std::size_t k = 0; k < expected.corner_C[i].size(); ++k) worst = std::max(worst, std::abs(g.c_gamma[i][k] - expected.corner_C[i][k]));
+    for (int k = 0; k < expected.out.back(); ++k) {
+      worst = std::max(worst, std::abs(e.c[i][k] - expected.C[i][k]));
+      largest = std::max(largest, edge_size(expected.edges(), k));
+    }
+    for (std::size_t k = 0; k < expected.corner_C[i].size(); ++k)
+      worst = std::max(worst, std::abs(g.c_gamma[i][k] - expected.corner_C[i][k]));
   }
   return worst / largest;
 }
@@ -102,7 +112,9 @@ TEST_P(CurrentDual, ClosesAndMappedAreasDoNot) {
 
 // Under x = A X the median dual of the moved mesh is cof A times the undeformed one, and so is the map of every node.
 TEST_P(CurrentDual, UnderALinearMapBothAreCofATimesC) {
-  const auto linear = [](const Vec3& X) { return Vec3{1.2 * X[0] + 0.3 * X[1], 0.9 * X[1] - 0.2 * X[2], 0.1 * X[0] + 1.1 * X[2]}; };
+  const auto linear = [](const Vec3& X) {
+    return Vec3{1.2 * X[0] + 0.3 * X[1], 0.9 * X[1] - 0.2 * X[2], 0.1 * X[0] + 1.1 * X[2]};
+  };
   Simulation updated = start(Description::updated), mapped = start(Description::pseudo_updated);
   const Mesh moved = move(updated, linear);
   move(mapped, linear);
@@ -128,5 +140,7 @@ TEST_P(CurrentDual, CornersKnowTheOtherTwoOfTheirFace) {
 TEST(CurrentGeometry, ATotalLagrangianSceneHasNone) {
   const Mesh mesh = box({2, 2, 2});
   const Dual dual = make_dual(mesh);
-  EXPECT_EQ(current_geometry_bytes(make_current_geometry(Description::total, mesh, make_order(dual, static_cast<int>(mesh.X.size())))), 0u);
+  EXPECT_EQ(current_geometry_bytes(
+                make_current_geometry(Description::total, mesh, make_order(dual, static_cast<int>(mesh.X.size())))),
+            0u);
 }

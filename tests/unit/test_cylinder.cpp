@@ -16,7 +16,9 @@ constexpr double radius = 3.2, length = 5.0, pi = std::numbers::pi;
 MeshSpec cylinder(std::array<int, 3> cells) {
   MeshSpec spec;
   spec.source = MeshSource::cylinder;
-  spec.radius = radius, spec.length = length, spec.cells = cells;
+  spec.radius = radius;
+  spec.length = length;
+  spec.cells = cells;
   return spec;
 }
 
@@ -57,7 +59,8 @@ TEST(Cylinder, VolumeAndAreasConvergeToTheCircle) {
     const MeshQuality q = mesh_quality(finished({2 * m, 2 * m, m}));
     EXPECT_NEAR(q.patches[0].area, radius * length, 1e-12);
     EXPECT_NEAR(q.patches[1].area, radius * length, 1e-12);
-    const double volume = 1 - q.volume / (pi * radius * radius * length / 4), side = 1 - q.patches[4].area / (pi * radius * length / 2);
+    const double volume = 1 - q.volume / (pi * radius * radius * length / 4),
+                 side = 1 - q.patches[4].area / (pi * radius * length / 2);
     EXPECT_NEAR(q.patches[2].area * length / q.volume, 1, 1e-12);
     EXPECT_NEAR(q.patches[3].area * length / q.volume, 1, 1e-12);
     EXPECT_GT(volume, 0);
@@ -66,7 +69,8 @@ TEST(Cylinder, VolumeAndAreasConvergeToTheCircle) {
       EXPECT_NEAR(last[0] / volume, 4, 0.1);
       EXPECT_NEAR(last[1] / side, 4, 0.1);
     }
-    last[0] = volume, last[1] = side;
+    last[0] = volume;
+    last[1] = side;
   }
   EXPECT_LT(last[0], 2e-3);
 }
@@ -101,23 +105,32 @@ TEST(Cylinder, IsSymmetricAboutItsDiagonal) {
 }
 
 TEST(Scene, CylinderIsReadAndItsCellsAreChecked) {
-  const std::string scene = edited(small_scene, "box = { size = [1, 2, 3] }", "cylinder = { radius = 0.5, length = 2 }\ncells = [3, 4, 5]");
+  const std::string scene = edited(small_scene, "box = { size = [1, 2, 3] }",
+                                   "cylinder = { radius = 0.5, length = 2 }\ncells = [3, 4, 5]");
   const SceneResult r = read_text(scene);
   EXPECT_TRUE(r.errors.empty()) << joined(r.errors);
   EXPECT_EQ(r.scene.mesh.source, MeshSource::cylinder);
   EXPECT_EQ(r.scene.mesh.radius, 0.5);
   EXPECT_EQ(r.scene.mesh.length, 2);
   EXPECT_EQ(r.scene.mesh.cells, (std::array<int, 3>{3, 4, 5}));
-  expect_each_refused(scene, {
-      {"radius = 0.5", "radius = 0", "scene.toml:3:23: mesh.cylinder.radius = 0: must be above 0"},
-      {", length = 2", "", "scene.toml:3:12: mesh.cylinder.length: is missing"},
-      {"length = 2", "length = 2, sector = \"half\"", "scene.toml:3:49: mesh.cylinder.sector = \"half\": unknown word, allowed: quarter"},
-      {"[3, 4, 5]", "[3, 3, 5]", "scene.toml:4:9: mesh.cells = [3, 3, 5]: the second number, 3 tangential cells, must be even"},
-      {"[3, 4, 5]", "[2, 4, 5]", "scene.toml:4:9: mesh.cells = [2, 4, 5]: the first number, 2 radial cells, must be above half the second, 2,"},
-      {"cells = [3, 4, 5]", "", "scene.toml:2:1: mesh.cells: is missing"},
-      {"cells", "split = \"kuhn\"\ncells", "scene.toml:4:9: mesh.split = \"kuhn\": is not a key of cylinder"},
-      {"cells", "box = { size = [1, 1, 1] }\ncells", "scene.toml:3:12: mesh.cylinder: stands beside mesh.box, exactly one of box | cylinder | needle | file is allowed"},
-  });
+  expect_each_refused(
+      scene,
+      {
+          {"radius = 0.5", "radius = 0", "scene.toml:3:23: mesh.cylinder.radius = 0: must be above 0"},
+          {", length = 2", "", "scene.toml:3:12: mesh.cylinder.length: is missing"},
+          {"length = 2", "length = 2, sector = \"half\"",
+           "scene.toml:3:49: mesh.cylinder.sector = \"half\": unknown word, allowed: quarter"},
+          {"[3, 4, 5]", "[3, 3, 5]",
+           "scene.toml:4:9: mesh.cells = [3, 3, 5]: the second number, 3 tangential cells, must be even"},
+          {"[3, 4, 5]", "[2, 4, 5]",
+           "scene.toml:4:9: mesh.cells = [2, 4, 5]: the first number, 2 radial cells, must be above half the second, "
+           "2,"},
+          {"cells = [3, 4, 5]", "", "scene.toml:2:1: mesh.cells: is missing"},
+          {"cells", "split = \"kuhn\"\ncells", "scene.toml:4:9: mesh.split = \"kuhn\": is not a key of cylinder"},
+          {"cells", "box = { size = [1, 1, 1] }\ncells",
+           "scene.toml:3:12: mesh.cylinder: stands beside mesh.box, exactly one of box | cylinder | needle | file is "
+           "allowed"},
+      });
 }
 
 }  // namespace

@@ -41,7 +41,8 @@ std::map<std::pair<int, int>, Vec3> areas_by_triangles(const Mesh& mesh) {
     for (int v = 0; v < 4; ++v)
       for (int w = 0; w < 4; ++w) {
         if (t[v] >= t[w]) continue;
-        const Vec3 &a = mesh.X[t[v]], &b = mesh.X[t[w]], middle = mean({a, b}), centre = mean({mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]});
+        const Vec3 &a = mesh.X[t[v]], &b = mesh.X[t[w]], middle = mean({a, b}),
+                   centre = mean({mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]});
         for (int u = 0; u < 4; ++u) {
           if (u == v || u == w) continue;
           const Vec3 A = facing(middle, mean({a, b, mesh.X[t[u]]}), centre, minus(b, a));
@@ -68,7 +69,10 @@ TEST_P(DualOfABox, EdgeAreasAreThoseOfTheirTriangles) {
 TEST_P(DualOfABox, AreasCloseEveryCell) {
   std::vector<Vec3> sum(mesh.X.size(), Vec3{});
   for (int k = 0; k < 3; ++k) {
-    for (const DualEdge& e : dual.edges) sum[e.a][k] += e.C[k], sum[e.b][k] -= e.C[k];
+    for (const DualEdge& e : dual.edges) {
+      sum[e.a][k] += e.C[k];
+      sum[e.b][k] -= e.C[k];
+    }
     for (const DualCorner& c : dual.corners) sum[c.a][k] += c.C[k];
   }
   for (const Vec3& s : sum) EXPECT_LE(norm(s), 1e-15);
@@ -86,7 +90,8 @@ TEST_P(DualOfABox, AreaTimesEdgeIsHalfTheVolumeAroundTheEdge) {
     for (const int a : t)
       for (const int b : t)
         if (a < b) around[{a, b}] += volume(mesh, t);
-  for (const DualEdge& e : dual.edges) EXPECT_NEAR(dot3(e.C, minus(mesh.X[e.b], mesh.X[e.a])), 0.5 * around[std::pair(e.a, e.b)], 1e-15);
+  for (const DualEdge& e : dual.edges)
+    EXPECT_NEAR(dot3(e.C, minus(mesh.X[e.b], mesh.X[e.a])), 0.5 * around[std::pair(e.a, e.b)], 1e-15);
 }
 
 TEST_P(DualOfABox, CornersAreThirdsOfTheirFacesAndPointOutward) {

@@ -17,8 +17,9 @@ struct Combination {
   PhysicsSpec physics;
   std::string name() const {
     std::string text;
-    for (const auto w : {word(physics.stabilisation), word(physics.reconstruction), word(physics.flux_correction), word(physics.formulation),
-                         word(physics.pressure_jump), word(physics.upwind_metric), word(physics.entropy_fix)})
+    for (const auto w : {word(physics.stabilisation), word(physics.reconstruction), word(physics.flux_correction),
+                         word(physics.formulation), word(physics.pressure_jump), word(physics.upwind_metric),
+                         word(physics.entropy_fix)})
       text.append(w).append(" ");
     return text;
   }
@@ -40,19 +41,26 @@ const std::vector<Combination>& combinations() {
   static const std::vector<Combination> built = [] {
     std::vector<Combination> all;
     for (const UpwindMetric metric : {UpwindMetric::deformed, UpwindMetric::paper})
-      for (const Reconstruction reconstruction : {Reconstruction::constant, Reconstruction::linear, Reconstruction::limited})
+      for (const Reconstruction reconstruction :
+           {Reconstruction::constant, Reconstruction::linear, Reconstruction::limited})
         for (const FluxCorrection correction : {FluxCorrection::none, FluxCorrection::pressure, FluxCorrection::full})
           for (const EntropyFix fix : {EntropyFix::none, EntropyFix::edge})
-            for (const auto& [formulation, jump] : {std::pair(Formulation::pF, PressureJump::scalar), std::pair(Formulation::pFJ, PressureJump::scalar),
-                                                    std::pair(Formulation::pFJ, PressureJump::tensor)}) {
+            for (const auto& [formulation, jump] :
+                 {std::pair(Formulation::pF, PressureJump::scalar), std::pair(Formulation::pFJ, PressureJump::scalar),
+                  std::pair(Formulation::pFJ, PressureJump::tensor)}) {
               PhysicsSpec physics;
-              physics.reconstruction = reconstruction, physics.flux_correction = correction, physics.upwind_metric = metric, physics.entropy_fix = fix;
-              physics.formulation = formulation, physics.pressure_jump = jump;
+              physics.reconstruction = reconstruction;
+              physics.flux_correction = correction;
+              physics.upwind_metric = metric;
+              physics.entropy_fix = fix;
+              physics.formulation = formulation;
+              physics.pressure_jump = jump;
               if (is_built(physics)) all.push_back({physics});
             }
     for (const Formulation formulation : {Formulation::pF, Formulation::pFJ}) {
       PhysicsSpec physics;
-      physics.stabilisation = Stabilisation::jst, physics.formulation = formulation;
+      physics.stabilisation = Stabilisation::jst;
+      physics.formulation = formulation;
       all.push_back({physics});
     }
     return all;
@@ -75,7 +83,12 @@ struct TwoParts {
       x.resize(static_cast<std::size_t>(width * rows));
       for (double& value : x) value = uniform(random, -1, 1);
     };
-    fill(X, row::X), fill(W, row::W), fill(PH, row::PH), fill(G, row::G), fill(GP, row::GP), fill(L, row::L);
+    fill(X, row::X);
+    fill(W, row::W);
+    fill(PH, row::PH);
+    fill(G, row::G);
+    fill(GP, row::GP);
+    fill(L, row::L);
     for (double& phi : L) phi = std::abs(phi);  // a limiter
     for (int n = 0; n < rows; ++n) {
       for (int m = 0; m < 6; ++m) PH[row::PH * n + 4 * m + 3] = 0;  // the lanes that are zero in a run
@@ -84,19 +97,32 @@ struct TwoParts {
       out[n] = n > 8 ? 2 : n > 0 ? 1 : 0;
     }
     out[rows] = 2;
-    for (int i = 0; i < 3; ++i) C[i][0] = uniform(random, -1, 1), C[i][1] = -C[i][0];
+    for (int i = 0; i < 3; ++i) {
+      C[i][0] = uniform(random, -1, 1);
+      C[i][1] = -C[i][0];
+    }
     size = std::sqrt(C[0][0] * C[0][0] + C[1][0] * C[1][0] + C[2][0] * C[2][0]);
-    k.rho_cp = 3, k.rho_cs = 1.2, k.material.cp = 2;
+    k.rho_cp = 3;
+    k.rho_cs = 1.2;
+    k.material.cp = 2;
   }
   Rows nodal() {
     Rows r{};
-    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.GP = GP.data(), r.L = L.data(), r.lagged_q = q;
+    r.X = X.data();
+    r.W = W.data();
+    r.PH = PH.data();
+    r.G = G.data();
+    r.GP = GP.data();
+    r.L = L.data();
+    r.lagged_q = q;
     return r;
   }
   EdgeArrays edges() const { return {first, second, {C[0], C[1], C[2]}}; }
   NodeLists lists() const { return {out, none, none, none, none}; }
   bool takes_lagged = false;
-  PartFunctions functions(const Combination& c, bool audits = false) const { return find_part_functions(c.physics, MaterialSpec{}, Materials::one, audits, takes_lagged); }
+  PartFunctions functions(const Combination& c, bool audits = false) const {
+    return find_part_functions(c.physics, MaterialSpec{}, Materials::one, audits, takes_lagged);
+  }
 
   /// Flux as both parts see it; lanes 4 to 7 are q of a flux correction.
   void run(const Combination& c) {
@@ -109,7 +135,10 @@ struct TwoParts {
   /// Power of the stabilisation that part p counts; nothing without an audit.
   double power(const Combination& c, int p) {
     alignas(64) double edge[8 * 9] = {};
-    const auto run = [&](bool audits) { return functions(c, audits).edge_flux(part[p], edges(), CornerArrays{}, lists(), nodal(), k, {edge, nullptr, nullptr, nullptr}); };
+    const auto run = [&](bool audits) {
+      return functions(c, audits).edge_flux(part[p], edges(), CornerArrays{}, lists(), nodal(), k,
+                                            {edge, nullptr, nullptr, nullptr});
+    };
     EXPECT_EQ(run(false), 0.0);
     return run(true);
   }
@@ -128,7 +157,10 @@ struct TwoParts {
     const auto fill = [&](auto& values) {
       for (double& x : values) x = uniform(random, -1, 1);
     };
-    for (int I = 0; I < 3; ++I) fill(slope[I]), fill(slope_P[I]);
+    for (int I = 0; I < 3; ++I) {
+      fill(slope[I]);
+      fill(slope_P[I]);
+    }
     fill(P0);
     for (const int n : {a, b}) {
       const double* x = &X[row::X * n];
@@ -148,7 +180,8 @@ struct TwoParts {
 }  // namespace
 
 TEST(EdgeFluxPart, SeenFromTheOtherPartIsBitwiseTheOpposite) {
-  ASSERT_EQ(combinations().size(), 2 * (7 * 5 - 3) + 2u);  // 7 pairs of reconstruction and correction, 5 of jump and entropy fix; jst
+  ASSERT_EQ(combinations().size(),
+            2 * (7 * 5 - 3) + 2u);  // 7 pairs of reconstruction and correction, 5 of jump and entropy fix; jst
   for (const Combination& c : combinations()) {
     Random random(1);
     int with_D_J = 0;
@@ -174,7 +207,8 @@ TEST(EdgeFluxPart, CorrectionOfTheVelocityGradientIsBitwiseTheSameFromBothParts)
       for (int i = 0; i < 4; ++i) {
         double q = 0;  // (theta/4)(G_a - G_b) . D
         for (int I = 0; I < 3; ++I)
-          q += 0.25 * two.k.theta * (two.G[4 * I + i] - two.G[row::G * two.b + 4 * I + i]) * (two.X[row::X * two.b + I] - two.X[I]);
+          q += 0.25 * two.k.theta * (two.G[4 * I + i] - two.G[row::G * two.b + 4 * I + i])
+               * (two.X[row::X * two.b + I] - two.X[I]);
         EXPECT_EQ(two.flux[0][4 + i], two.flux[1][4 + i]) << c.name();
         EXPECT_NEAR(two.flux[0][4 + i], q, 1e-15) << c.name();
       }
@@ -205,7 +239,8 @@ TEST(EdgeFluxPart, ConstantReconstructionDampsLinearFields) {
     two.make_linear(random, c.upwind());
     two.run(c);
     const auto t = two.central();
-    EXPECT_GT(std::abs(two.flux[0][0] - t[0]) + std::abs(two.flux[0][1] - t[1]) + std::abs(two.flux[0][2] - t[2]), 1e-2) << c.name();
+    EXPECT_GT(std::abs(two.flux[0][0] - t[0]) + std::abs(two.flux[0][1] - t[1]) + std::abs(two.flux[0][2] - t[2]), 1e-2)
+        << c.name();
   }
 }
 
@@ -221,7 +256,8 @@ TEST(EdgeFluxPart, PressureCorrectionActsAlongTheDeformedArea) {
     std::copy(two.flux[0], two.flux[0] + 4, before);
     two.run(c);
     for (int i = 0; i < 3; ++i)
-      for (int I = 0; I < 3; ++I) area[i] += 0.5 * (two.PH[8 * I + 4 + i] + two.PH[row::PH * two.b + 8 * I + 4 + i]) * two.C[I][0];
+      for (int I = 0; I < 3; ++I)
+        area[i] += 0.5 * (two.PH[8 * I + 4 + i] + two.PH[row::PH * two.b + 8 * I + 4 + i]) * two.C[I][0];
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i] - before[i], two.flux[0][7] * area[i], 1e-13) << c.name();
     EXPECT_EQ(two.flux[0][3], before[3]) << c.name();
   }
@@ -247,7 +283,8 @@ TEST(EdgeFluxPart, ALaggedCorrectionIsTakenAsItIs) {
     two.run(c);
     for (int i = 0; i < 4; ++i) EXPECT_EQ(two.flux[0][i], expected[i]) << c.name();
     two.q[0] = two.q[1] = 0;
-    two.run(c), std::copy(two.flux[0], two.flux[0] + 4, expected);
+    two.run(c);
+    std::copy(two.flux[0], two.flux[0] + 4, expected);
     two.run(plain);
     for (int i = 0; i < 4; ++i) EXPECT_EQ(two.flux[0][i], expected[i]) << c.name();
   }
@@ -268,7 +305,8 @@ TEST(EdgeFluxPart, DissipationIsThePowerOfTheStabilisationCountedOnce) {
       double power = 0;
       for (int p = 0; p < 2; ++p) power += two.power(c, p);
       EXPECT_NEAR(power, expected, 1e-12) << c.name();
-      const bool edge_by_edge = c.physics.reconstruction == Reconstruction::constant || c.physics.entropy_fix == EntropyFix::edge;
+      const bool edge_by_edge = c.physics.reconstruction == Reconstruction::constant
+                                || c.physics.entropy_fix == EntropyFix::edge;
       if (edge_by_edge && c.physics.pressure_jump == PressureJump::scalar) {
         EXPECT_GE(power, 0.0) << c.name();
       }
@@ -295,6 +333,7 @@ TEST(EdgeFluxPart, JamesonSchmidtTurkelDampsTheDifferenceOfThePseudoLaplacians) 
   two.run({physics});
   const auto t = two.central();
   const double* Lb = &two.L[row::L * two.b];
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(two.flux[0][i], t[i] - two.k.rho_cp / 256 * two.size * (Lb[i] - two.L[i]), 1e-15);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(two.flux[0][i], t[i] - two.k.rho_cp / 256 * two.size * (Lb[i] - two.L[i]), 1e-15);
   EXPECT_NEAR(two.flux[0][3], -two.k.material.cp / 8192 * two.size * (Lb[3] - two.L[3]), 1e-17);
 }

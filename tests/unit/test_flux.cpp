@@ -16,11 +16,13 @@ namespace {
 constexpr double rho = 1100, cp = 240, cs = 70;  // [kg/m^3] [m/s] [m/s]
 
 struct Edge {
-  Vector3d C, c, d;                // [m^2] [m^2] [m/s]: area, deformed area, jump of v
-  double d_Sigma;                  // [Pa]
+  Vector3d C, c, d;  // [m^2] [m^2] [m/s]: area, deformed area, jump of v
+  double d_Sigma;    // [Pa]
 };
 
-Vector3d random_vector(Random& random) { return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)}; }
+Vector3d random_vector(Random& random) {
+  return {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+}
 
 /// Areas that grow or shrink by up to 3.
 Edge random_edge(Random& random) {
@@ -45,7 +47,9 @@ EdgeCoefficientsOf<double> coefficients(const Edge& e, double speed_p = cp, doub
   return edge_coefficients<metric>(e.c.squaredNorm(), e.C.norm(), rho * speed_p, rho * speed_s);
 }
 
-Vector3d momentum(const EdgeCoefficientsOf<double>& s, const Edge& e) { return s.shear * e.d + s.normal * e.c.dot(e.d) * e.c; }
+Vector3d momentum(const EdgeCoefficientsOf<double>& s, const Edge& e) {
+  return s.shear * e.d + s.normal * e.c.dot(e.d) * e.c;
+}
 
 template <UpwindMetric metric>
 void expect_the_papers_matrices() {
@@ -77,16 +81,21 @@ void expect_dissipation() {
 
 TEST(Flux, StabilisationIsThePapersMatrices) { expect_the_papers_matrices<UpwindMetric::paper>(); }
 
-TEST(Flux, DeformedMetricScalesThePressureSpeedByTheStretchOfTheArea) { expect_the_papers_matrices<UpwindMetric::deformed>(); }
+TEST(Flux, DeformedMetricScalesThePressureSpeedByTheStretchOfTheArea) {
+  expect_the_papers_matrices<UpwindMetric::deformed>();
+}
 
-TEST(Flux, StabilisationDissipates) { expect_dissipation<UpwindMetric::paper>(), expect_dissipation<UpwindMetric::deformed>(); }
+TEST(Flux, StabilisationDissipates) {
+  expect_dissipation<UpwindMetric::paper>(), expect_dissipation<UpwindMetric::deformed>();
+}
 
 TEST(Flux, MetricsAgreeBitwiseWhereTheAreaHasNotGrown) {
   Random random(3);
   int shrunk = 0;
   for (int k = 0; k < 500; ++k) {
     const Edge e = random_edge(random);
-    const EdgeCoefficientsOf<double> p = coefficients<UpwindMetric::paper>(e), d = coefficients<UpwindMetric::deformed>(e);
+    const EdgeCoefficientsOf<double> p = coefficients<UpwindMetric::paper>(e),
+                                     d = coefficients<UpwindMetric::deformed>(e);
     const bool grown = e.c.norm() > e.C.norm();
     shrunk += !grown;
     EXPECT_EQ(p.shear, d.shear);
@@ -99,8 +108,12 @@ TEST(Flux, MetricsAgreeBitwiseWhereTheAreaHasNotGrown) {
 
 TEST(Flux, AverageTractionAndAreaIsTheMeanOfBothEndsTimesC) {
   Random random(4);
-  alignas(64) double a[24], b[24];
-  for (int k = 0; k < 24; ++k) a[k] = uniform(random, -1, 1), b[k] = uniform(random, -1, 1);
+  alignas(64) double a[24];
+  b[24];
+  for (int k = 0; k < 24; ++k) {
+    a[k] = uniform(random, -1, 1);
+    b[k] = uniform(random, -1, 1);
+  }
   const double C[3] = {0.3, -0.7, 0.2};
   const Vec8 PH_a[3] = {load8(a), load8(a + 8), load8(a + 16)};
   const Vec8 tc = average_traction_and_area(PH_a, b, C);

@@ -18,7 +18,8 @@ struct Loading {
 Loading load_geometry(const std::filesystem::path& geo) {
   Loading out;
   MeshSpec spec;
-  spec.source = MeshSource::file, spec.file = {geo.string(), "scene.toml:3:8"};
+  spec.source = MeshSource::file;
+  spec.file = {geo.string(), "scene.toml:3:8"};
   out.mesh = load_mesh(spec, out.errors);
   return out;
 }
@@ -32,8 +33,10 @@ double volume(const Mesh& mesh) {
 TEST(GeometryGmsh, IsMeshedWithItsNamesAndEveryTimeTheSame) {
   const test::TemporaryFolder folder;
   const auto geo = folder / "a b.geo";
-  test::write_text(geo, "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 2};\nPhysical Volume(\"bar\") = {1};\nPhysical Surface(\"foot\") = {5};\n"
-                        "Mesh.CharacteristicLengthMax = 0.5;\n");
+  test::write_text(geo,
+                   "SetFactory(\"OpenCASCADE\");\nBox(1) = {0, 0, 0, 1, 1, 2};\nPhysical Volume(\"bar\") = "
+                   "{1};\nPhysical Surface(\"foot\") = {5};\n"
+                   "Mesh.CharacteristicLengthMax = 0.5;\n");
   const Loading first = load_geometry(geo), second = load_geometry(geo);
   ASSERT_TRUE(first.errors.empty()) << first.errors[0];
   EXPECT_EQ(first.mesh.region_names, std::vector<std::string>{"bar"});
@@ -55,11 +58,12 @@ TEST(GeometryGmsh, ItsMistakesAreReportedInGmshsWords) {
 TEST(GeometryGmsh, TheGeometriesOfTheScenesHaveTheirVolumeAndSize) {
   struct Case {
     const char* geo;
-    double volume, tolerance;                      // [m^3] of the exact body; the mesh is faceted
-    std::size_t least, most;                       // nodes
+    double volume, tolerance;  // [m^3] of the exact body; the mesh is faceted
+    std::size_t least, most;   // nodes
   };
   const double cone = std::numbers::pi * (16 + 8 + 4);
-  for (const Case& c : {Case{"satellite.geo", cone + 4 * 3.5, 0.03, 2200, 2800}, Case{"punch.geo", 0.5 - 9 * 0.005 * std::numbers::pi, 0.035, 1000, 1600},
+  for (const Case& c : {Case{"satellite.geo", cone + 4 * 3.5, 0.03, 2200, 2800},
+                        Case{"punch.geo", 0.5 - 9 * 0.005 * std::numbers::pi, 0.035, 1000, 1600},
                         Case{"stent.geo", 0, 0, 1200, 2000}}) {
     const Loading read = load_geometry(std::string(NANSON_SOURCE_DIR) + "/configs/meshes/" + c.geo);
     ASSERT_TRUE(read.errors.empty()) << read.errors[0];

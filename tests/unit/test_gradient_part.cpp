@@ -18,7 +18,8 @@ struct Gradients : ::testing::TestWithParam<Split> {
   Mesh mesh = box({13, 12, 10}, GetParam(), 0.2);  // two parts
   Dual dual = make_dual(mesh);
   Order order = make_order(dual, static_cast<int>(mesh.X.size()));
-  Aligned<double> X = zeros(row::X), W = zeros(row::W), PH = zeros(row::PH), G = zeros(row::G), dP = zeros(row::dP), GP = zeros(row::GP), PH_new = zeros(row::PH);
+  Aligned<double> X = zeros(row::X), W = zeros(row::W), PH = zeros(row::PH), G = zeros(row::G), dP = zeros(row::dP),
+                  GP = zeros(row::GP), PH_new = zeros(row::PH);
   Aligned<double> L = zeros(row::L), lambda;
   Random random{1};
 
@@ -33,17 +34,28 @@ struct Gradients : ::testing::TestWithParam<Split> {
 
   void run(PressureJump jump, FluxCorrection correction) {
     PhysicsSpec physics;
-    physics.pressure_jump = jump, physics.flux_correction = correction;
+    physics.pressure_jump = jump;
+    physics.flux_correction = correction;
     run(physics);
   }
   void run(const PhysicsSpec& physics) {
     const PartFunctions f = find_part_functions(physics, MaterialSpec{});
     Rows r{};
-    r.X = X.data(), r.W = W.data(), r.PH = PH.data(), r.G = G.data(), r.dP = dP.data(), r.GP = GP.data(), r.L = L.data(), r.lambda = lambda.data(), r.PH_new = PH_new.data();
-    for (const Part& part : order.parts) f.gradient(part, order.edges(), order.corners(), order.lists(), r, Coefficients{});
+    r.X = X.data();
+    r.W = W.data();
+    r.PH = PH.data();
+    r.G = G.data();
+    r.dP = dP.data();
+    r.GP = GP.data();
+    r.L = L.data();
+    r.lambda = lambda.data();
+    r.PH_new = PH_new.data();
+    for (const Part& part : order.parts)
+      f.gradient(part, order.edges(), order.corners(), order.lists(), r, Coefficients{});
   }
 };
-INSTANTIATE_TEST_SUITE_P(Splits, Gradients, ::testing::Values(Split::alternating, Split::kuhn), [](const auto& info) { return std::string(word(info.param)); });
+INSTANTIATE_TEST_SUITE_P(Splits, Gradients, ::testing::Values(Split::alternating, Split::kuhn),
+                         [](const auto& info) { return std::string(word(info.param)); });
 
 }  // namespace
 
@@ -61,7 +73,8 @@ TEST_P(Gradients, OfLinearFieldsAreExactAtEveryNode) {
   run(PressureJump::scalar, FluxCorrection::none);
   for (int n = 0; n < order.nodes; ++n)
     for (int I = 0; I < 3; ++I)
-      for (int i = 0; i < 4; ++i) EXPECT_NEAR(G[row::G * order.row_of[n] + 4 * I + i], slope[I][i], 1e-13) << "node " << n;
+      for (int i = 0; i < 4; ++i)
+        EXPECT_NEAR(G[row::G * order.row_of[n] + 4 * I + i], slope[I][i], 1e-13) << "node " << n;
 }
 
 TEST_P(Gradients, OfAConstantFieldAreZeroBitwise) {
@@ -78,7 +91,7 @@ TEST_P(Gradients, AreTheVolumeWeightedMeanOfTheFiniteElementGradients) {
   run(PressureJump::scalar, FluxCorrection::none);
   std::vector<Eigen::Matrix<double, 4, 3>> mean(mesh.X.size(), Eigen::Matrix<double, 4, 3>::Zero());
   for (const auto& t : mesh.tets) {
-    Eigen::Matrix3d D;             // columns: edges from node 0
+    Eigen::Matrix3d D;              // columns: edges from node 0
     Eigen::Matrix<double, 4, 3> d;  // columns: differences along them
     for (int v = 1; v < 4; ++v)
       for (int i = 0; i < 4; ++i) {
@@ -90,7 +103,8 @@ TEST_P(Gradients, AreTheVolumeWeightedMeanOfTheFiniteElementGradients) {
   }
   for (int n = 0; n < order.nodes; ++n)
     for (int I = 0; I < 3; ++I)
-      for (int i = 0; i < 4; ++i) EXPECT_NEAR(G[row::G * order.row_of[n] + 4 * I + i], mean[n](i, I), 1e-12) << "node " << n;
+      for (int i = 0; i < 4; ++i)
+        EXPECT_NEAR(G[row::G * order.row_of[n] + 4 * I + i], mean[n](i, I), 1e-12) << "node " << n;
 }
 
 TEST_P(Gradients, OfALinearStressAreExactAndItHasNoCorrection) {
@@ -99,7 +113,8 @@ TEST_P(Gradients, OfALinearStressAreExactAndItHasNoCorrection) {
     for (double& x : s) x = uniform(random, -1, 1);
   for (int n = 0; n < order.nodes; ++n)
     for (int m = 0; m < 9; ++m)
-      PH[row::PH * order.row_of[n] + 8 * (m / 3) + m % 3] = 0.3 + slope[0][m] * mesh.X[n][0] + slope[1][m] * mesh.X[n][1] + slope[2][m] * mesh.X[n][2];
+      PH[row::PH * order.row_of[n] + 8 * (m / 3) + m % 3] = 0.3 + slope[0][m] * mesh.X[n][0]
+                                                            + slope[1][m] * mesh.X[n][1] + slope[2][m] * mesh.X[n][2];
   run(PressureJump::tensor, FluxCorrection::full);
   for (int r = 0; r < order.rows; ++r) {
     if (order.node_of[r] < 0) continue;
@@ -131,7 +146,10 @@ TEST_P(Gradients, CorrectionOfTheStressIsItsFormula) {
       for (int J = 0; J < 3; ++J) expected[a](i, J) += (2.0 / 3) / (4 * dual.volume[a]) * y * D[J];
     }
   };
-  for (const DualEdge& e : dual.edges) add(e.a, e.b, 1, e.C), add(e.b, e.a, -1, e.C);
+  for (const DualEdge& e : dual.edges) {
+    add(e.a, e.b, 1, e.C);
+    add(e.b, e.a, -1, e.C);
+  }
   for (int n = 0; n < order.nodes; ++n)
     for (int m = 0; m < 9; ++m) {
       const std::ptrdiff_t r = order.row_of[n], P_row = row::PH * r + 8 * (m / 3) + m % 3;
@@ -148,13 +166,19 @@ TEST_P(Gradients, LimitedReconstructionsStayBetweenTheNeighboursAtEveryMidpointA
   physics.reconstruction = Reconstruction::limited;
   run(physics);
   std::vector<std::vector<int>> neighbours(mesh.X.size());
-  for (const DualEdge& e : dual.edges) neighbours[e.a].push_back(e.b), neighbours[e.b].push_back(e.a);
+  for (const DualEdge& e : dual.edges) {
+    neighbours[e.a].push_back(e.b);
+    neighbours[e.b].push_back(e.a);
+  }
   for (int n = 0; n < order.nodes; ++n)
     for (int i = 0; i < 4; ++i) {
       const int r = order.row_of[n];
       const double W_n = W[row::W * r + i], phi = L[row::L * r + i];
       double least = W_n, most = W_n, closest = 1e300;
-      for (const int b : neighbours[n]) least = std::min(least, W[row::W * order.row_of[b] + i]), most = std::max(most, W[row::W * order.row_of[b] + i]);
+      for (const int b : neighbours[n]) {
+        least = std::min(least, W[row::W * order.row_of[b] + i]);
+        most = std::max(most, W[row::W * order.row_of[b] + i]);
+      }
       for (const int b : neighbours[n]) {
         double value = W_n;
         for (int I = 0; I < 3; ++I) value += 0.5 * phi * G[row::G * r + 4 * I + i] * (mesh.X[b][I] - mesh.X[n][I]);
@@ -172,7 +196,8 @@ TEST_P(Gradients, PseudoLaplacianOfALinearFieldIsZeroAtEveryNode) {
   scene.physics.stabilisation = Stabilisation::jst;
   lambda = make_state(scene, mesh, dual, order, Boundary{}).lambda;
   for (int n = 0; n < order.nodes; ++n)
-    for (int i = 0; i < 4; ++i) W[row::W * order.row_of[n] + i] = i + (i + 1) * mesh.X[n][0] - i * mesh.X[n][1] + 0.5 * mesh.X[n][2];
+    for (int i = 0; i < 4; ++i)
+      W[row::W * order.row_of[n] + i] = i + (i + 1) * mesh.X[n][0] - i * mesh.X[n][1] + 0.5 * mesh.X[n][2];
   for (double& l : L) l = 7;
   run(scene.physics);
   for (const double l : L) EXPECT_NEAR(l, 0, 1e-12);

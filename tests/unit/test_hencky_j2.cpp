@@ -18,7 +18,11 @@ using test::product, test::random_rotation, test::Random, test::uniform;
 MaterialSpec copper() {
   MaterialSpec m;
   m.law = Law::hencky_j2;
-  m.density = 8930, m.youngs_modulus = 117e9, m.poissons_ratio = 0.35, m.yield_stress = 0.4e9, m.hardening_modulus = 0.1e9;
+  m.density = 8930;
+  m.youngs_modulus = 117e9;
+  m.poissons_ratio = 0.35;
+  m.yield_stress = 0.4e9;
+  m.hardening_modulus = 0.1e9;
   return m;
 }
 MaterialConstants elastic() {
@@ -98,7 +102,8 @@ TEST(HenckyJ2, PlasticWorkIsNeverNegativeAndTheStateKeepsDetOne) {
       EXPECT_LE(a.mapping.q, (0.4e9 + 0.1e9 * a.state.eps_p) * (1 + 1e-9));
       z = a.state;
       const auto& C = z.C_p_inv;
-      const Tensor<double> full{{{C(0, 0), C(0, 1), C(0, 2)}, {C(0, 1), C(1, 1), C(1, 2)}, {C(0, 2), C(1, 2), C(2, 2)}}};
+      const Tensor<double> full{
+          {{C(0, 0), C(0, 1), C(0, 2)}, {C(0, 1), C(1, 1), C(1, 2)}, {C(0, 2), C(1, 2), C(2, 2)}}};
       EXPECT_NEAR(determinant(full, cofactor(full)), 1, 1e-12);
       EXPECT_NEAR(evaluate(F, z, m).mapping.d_gamma, 0, 1e-12);  // back on the surface
     }
@@ -110,7 +115,7 @@ TEST(HenckyJ2, UnloadsElasticallyAndLeavesTheStateToTheBit) {
   const MaterialConstants m = constants_of(copper());
   const PlasticState<double> z = evaluate(stretch(1.1, 1 / std::sqrt(1.1), 1 / std::sqrt(1.1)), virgin(), m).state;
   ASSERT_GT(z.eps_p, 0.05);
-  const double e = std::log(1.1) - 0.002;          // q falls by 3 mu 0.002
+  const double e = std::log(1.1) - 0.002;  // q falls by 3 mu 0.002
   const Answer a = evaluate(stretch(std::exp(e), std::exp(-e / 2), std::exp(-e / 2)), z, m);
   EXPECT_NEAR(a.mapping.q, 0.4e9 + 0.1e9 * z.eps_p - 3 * m.mu * 0.002, 1e2);
   EXPECT_EQ(a.mapping.plastic_work, 0);
@@ -136,7 +141,11 @@ TEST(HenckyJ2, LinearTableIsLinearHardening) {
 /// A step far over several kinks ends on the curve, beyond the last point on its level.
 TEST(HenckyJ2, ReturnsToTheTableAcrossItsKinks) {
   MaterialSpec table = copper();
-  table.hardening = {{0, 0.1e9}, {0.001, 0.3e9}, {0.01, 0.3e9}, {0.1, 0.5e9}, {0.2, 0.8e9}};  // neither convex nor concave, with a flat piece
+  table.hardening = {{0, 0.1e9},
+                     {0.001, 0.3e9},
+                     {0.01, 0.3e9},
+                     {0.1, 0.5e9},
+                     {0.2, 0.8e9}};  // neither convex nor concave, with a flat piece
   const MaterialConstants m = constants_of(table);
   const auto curve = [&](double eps) {
     double y = table.hardening.back().second;
@@ -171,17 +180,21 @@ TEST(HenckyJ2, ElasticStressIsTheDerivativeOfTheEnergy) {
     for (int n = 0; n < 9; ++n) {
       const double h = 1e-5;
       Tensor<double> plus = F, minus = F;
-      plus.a[n / 3][n % 3] += h, minus.a[n / 3][n % 3] -= h;
-      EXPECT_NEAR((pF::energy(plus, 0, z, m) - pF::energy(minus, 0, z, m)) / (2 * h) / scale, a.stress.P.a[n / 3][n % 3] / scale, 1e-8);
+      plus.a[n / 3][n % 3] += h;
+      minus.a[n / 3][n % 3] -= h;
+      EXPECT_NEAR((pF::energy(plus, 0, z, m) - pF::energy(minus, 0, z, m)) / (2 * h) / scale,
+                  a.stress.P.a[n / 3][n % 3] / scale, 1e-8);
       EXPECT_NEAR((pFJ::energy(plus, 0.9, z, m) - pFJ::energy(minus, 0.9, z, m)) / (2 * h) / scale,
                   (b.stress.P.a[n / 3][n % 3] - b.stress.Sigma_J * b.stress.H.a[n / 3][n % 3]) / scale, 1e-8);
     }
     Tensor<double> H = cofactor(F);
-    H[0][1] += 0.1;                                // evolved, and away from cof F
+    H[0][1] += 0.1;  // evolved, and away from cof F
     EXPECT_NEAR((pFHJ::stress(F, H, 0.9, a.mapping, m).P[0][1] - b.stress.P[0][1]) / (0.1 * b.stress.Sigma_J), 1, 1e-9);
     const double dU = (pFJ::energy(F, 0.9 + 1e-5, z, m) - pFJ::energy(F, 0.9 - 1e-5, z, m)) / 2e-5;
     EXPECT_NEAR(dU / b.stress.Sigma_J, 1, 1e-8);
-    const double d2U = (evaluate<pFJ>(F, z, m, 0.9 + 1e-5).stress.Sigma_J - evaluate<pFJ>(F, z, m, 0.9 - 1e-5).stress.Sigma_J) / 2e-5;
+    const double d2U = (evaluate<pFJ>(F, z, m, 0.9 + 1e-5).stress.Sigma_J
+                        - evaluate<pFJ>(F, z, m, 0.9 - 1e-5).stress.Sigma_J)
+                       / 2e-5;
     EXPECT_NEAR(d2U / b.stress.d2U, 1, 1e-8);
   }
 }
@@ -196,14 +209,22 @@ TEST(HenckyJ2, SpeedBoundHoldsForRandomDirectionsAndIsExactAtRest) {
     const Tensor<double> F = random_F(random, k % 3 ? 0.4 : 0.05);
     const double bound = evaluate(F, z, m).stress.rho_c2, h = 1e-4;
     double w[3], N[3], w2 = 0, N2 = 0;
-    for (int i = 0; i < 3; ++i) w[i] = uniform(random, -1, 1), N[i] = k % 5 ? uniform(random, -1, 1) : w[i];
-    for (int i = 0; i < 3; ++i) w2 += w[i] * w[i], N2 += N[i] * N[i];
+    for (int i = 0; i < 3; ++i) {
+      w[i] = uniform(random, -1, 1);
+      N[i] = k % 5 ? uniform(random, -1, 1) : w[i];
+    }
+    for (int i = 0; i < 3; ++i) {
+      w2 += w[i] * w[i];
+      N2 += N[i] * N[i];
+    }
     Tensor<double> plus = F, minus = F;
     for (int n = 0; n < 9; ++n) {
       const double d = h * w[n / 3] * N[n % 3] / std::sqrt(w2 * N2);
-      plus.a[n / 3][n % 3] += d, minus.a[n / 3][n % 3] -= d;
+      plus.a[n / 3][n % 3] += d;
+      minus.a[n / 3][n % 3] -= d;
     }
-    const double curvature = (pF::energy(plus, 0, z, m) - 2 * pF::energy(F, 0, z, m) + pF::energy(minus, 0, z, m)) / (h * h);
+    const double curvature = (pF::energy(plus, 0, z, m) - 2 * pF::energy(F, 0, z, m) + pF::energy(minus, 0, z, m))
+                             / (h * h);
     EXPECT_LT(curvature, bound * (1 + 1e-4));
     sharpest = std::max(sharpest, curvature / bound);
   }
@@ -222,10 +243,12 @@ TEST(HenckyJ2, LanesEqualScalarsToTheBit) {
       PlasticState<Vec8> z8;
       Vec8 J;
       for (int i = 0; i < 8; ++i) {
-        F[i] = i == 0 ? identity<double>() : random_F(random, i < 3 ? 1e-4 : 0.3), z[i] = i < 4 ? virgin() : deformed_state(random, m);
+        F[i] = i == 0 ? identity<double>() : random_F(random, i < 3 ? 1e-4 : 0.3);
+        z[i] = i < 4 ? virgin() : deformed_state(random, m);
         for (int n = 0; n < 9; ++n) F8.a[n / 3][n % 3][i] = F[i].a[n / 3][n % 3];
         for (int n = 0; n < 6; ++n) z8.C_p_inv.a[n][i] = z[i].C_p_inv.a[n];
-        z8.eps_p[i] = z[i].eps_p, J[i] = 1 + 0.01 * i;
+        z8.eps_p[i] = z[i].eps_p;
+        J[i] = 1 + 0.01 * i;
       }
       const auto r8 = pFJ::return_mapping(F8, z8, m);
       const auto s8 = pFJ::stress(F8, cofactor(F8), J, r8, m);

@@ -14,7 +14,8 @@ using namespace nanson::test;
 namespace {
 
 Vec4 random_column(Random& random, double least, double most) {
-  return Vec4{uniform(random, least, most), uniform(random, least, most), uniform(random, least, most), uniform(random, least, most)};
+  return Vec4{uniform(random, least, most), uniform(random, least, most), uniform(random, least, most),
+              uniform(random, least, most)};
 }
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -27,8 +28,12 @@ struct Star {
   template <class Difference, class Slope>
   Star(Difference difference, Slope slope_of) {
     for (int k = 0; k < 6; ++k) {
-      d[k] = difference(k), slope[k] = slope_of(k);
-      above = larger(above, d[k]), below = smaller(below, d[k]), rise = larger(rise, slope[k]), fall = smaller(fall, slope[k]);
+      d[k] = difference(k);
+      slope[k] = slope_of(k);
+      above = larger(above, d[k]);
+      below = smaller(below, d[k]);
+      rise = larger(rise, slope[k]);
+      fall = smaller(fall, slope[k]);
     }
   }
   Vec4 phi() const { return barth_jespersen(rise, fall, above, below); }
@@ -40,7 +45,8 @@ TEST(BarthJespersen, ValuesAtTheMidpointsStayWithinTheNeighbours) {
   Random random(1);
   int limited = 0, whole = 0;
   for (int trial = 0; trial < 500; ++trial) {
-    const Star s([&](int) { return random_column(random, -1, 1); }, [&](int) { return random_column(random, -0.8, 0.8); });
+    const Star s([&](int) { return random_column(random, -1, 1); },
+                 [&](int) { return random_column(random, -0.8, 0.8); });
     const Vec4 phi = s.phi();
     for (int i = 0; i < 4; ++i) {
       EXPECT_GE(phi[i], 0);
@@ -78,16 +84,23 @@ TEST(BarthJespersen, IsOneForAConstantFieldAndZeroAtAnExtremum) {
 /// The node's own NaN is in its gradient, hence in the reconstructed jump whatever phi is: no component of it becomes a number again.
 TEST(BarthJespersen, DoesNotMakeNaNANumber) {
   for (int bad = 0; bad < 4; ++bad) {
-    alignas(64) double X[8] = {0, 0, 0, 1, 1, 0, 0, 1}, W[8] = {}, G[24], L[8];
+    alignas(64) double X[8] = {0, 0, 0, 1, 1, 0, 0, 1};
+    W[8] = {};
+    G[24];
+    L[8];
     for (double& g : G) g = 0.1;
     for (double& l : L) l = 1;
     for (int I = 0; I < 3; ++I) G[4 * I + bad] = nan_value;
     W[bad] = nan_value;
     const Vec4 slope = along(G, Vec4{1, 0, 0, 0}) * 0.5, d = load4(W + 4) - load4(W);
-    const Vec4 phi = barth_jespersen(larger(slope, Vec4{}), smaller(slope, Vec4{}), larger(d, Vec4{}), smaller(d, Vec4{}));
+    const Vec4 phi = barth_jespersen(larger(slope, Vec4{}), smaller(slope, Vec4{}), larger(d, Vec4{}),
+                                     smaller(d, Vec4{}));
     store4(L, phi);
     Rows rows{};
-    rows.X = X, rows.W = W, rows.G = G, rows.L = L;
+    rows.X = X;
+    rows.W = W;
+    rows.G = G;
+    rows.L = L;
     const Vec4 jump = reconstructed_jump<Reconstruction::limited>(rows, 0, 1, d, Vec4{1, 0, 0, 0});
     for (int i = 0; i < 4; ++i) EXPECT_EQ(std::isnan(jump[i]), i == bad) << bad;
   }
@@ -118,7 +131,8 @@ Power power_of(Random& random) {
     const Vec4 D = Vec4{s.shear, s.shear, s.shear, s.volume} * d + s.along * c;
     return dot3(D, plain)[0] + D[3] * plain[3];
   };
-  return {power(one_edge<EntropyFix::edge>(k, plain, d, c, cc)), power(one_edge<EntropyFix::none>(k, plain, d, c, cc)), k.shear + std::abs(k.normal) * cc + k.volume};
+  return {power(one_edge<EntropyFix::edge>(k, plain, d, c, cc)), power(one_edge<EntropyFix::none>(k, plain, d, c, cc)),
+          k.shear + std::abs(k.normal) * cc + k.volume};
 }
 
 template <UpwindMetric metric>
@@ -136,7 +150,9 @@ void expect_no_edge_is_fed() {
 
 }  // namespace
 
-TEST(EntropyFix, TakesPowerOutOfEveryEdgeWhateverTheJumps) { expect_no_edge_is_fed<UpwindMetric::deformed>(), expect_no_edge_is_fed<UpwindMetric::paper>(); }
+TEST(EntropyFix, TakesPowerOutOfEveryEdgeWhateverTheJumps) {
+  expect_no_edge_is_fed<UpwindMetric::deformed>(), expect_no_edge_is_fed<UpwindMetric::paper>();
+}
 
 TEST(EntropyFix, LeavesAnEdgeAloneWhoseReconstructedJumpIsAShareOfThePlainOne) {
   Random random(4);
@@ -146,7 +162,8 @@ TEST(EntropyFix, LeavesAnEdgeAloneWhoseReconstructedJumpIsAShareOfThePlainOne) {
     const double cc = dot3(c, c)[0];
     const Vec4 plain = random_column(random, -1, 1), d = 0.3 * plain;
     const EdgeCoefficientsOf<double> k = edge_coefficients<UpwindMetric::deformed>(cc, std::sqrt(cc), 3.0, 1.0);
-    const StabiliserOf<double> with = one_edge<EntropyFix::edge>(k, plain, d, c, cc), without = one_edge<EntropyFix::none>(k, plain, d, c, cc);
+    const StabiliserOf<double> with = one_edge<EntropyFix::edge>(k, plain, d, c, cc),
+                               without = one_edge<EntropyFix::none>(k, plain, d, c, cc);
     EXPECT_EQ(with.shear, without.shear);
     EXPECT_EQ(with.volume, without.volume);
     EXPECT_NEAR(with.along, without.along, 1e-14 * std::abs(without.along) + 1e-15 * k.shear / std::sqrt(cc));

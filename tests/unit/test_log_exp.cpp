@@ -11,7 +11,8 @@ namespace {
 
 /// |value - exact| in units of the last place of the exact value.
 double ulps(double value, long double exact) {
-  const double rounded = static_cast<double>(exact), unit = std::nextafter(std::abs(rounded), HUGE_VAL) - std::abs(rounded);
+  const double rounded = static_cast<double>(exact),
+               unit = std::nextafter(std::abs(rounded), HUGE_VAL) - std::abs(rounded);
   return static_cast<double>(std::abs(static_cast<long double>(value) - exact)) / unit;
 }
 
@@ -22,8 +23,10 @@ TEST(Logarithm, IsWithinTwoUlpOverAllScales) {
   std::mt19937_64 random(1);
   double worst = 0;
   for (int k = 0; k < 200000; ++k) {
-    const double near_one = std::ldexp(1 + double(random() >> 11) * 0x1p-53, -1 + k % 2), wide = std::ldexp(near_one, int(random() % 2000) - 1000);
-    for (const double x : {near_one, wide, 1 + (near_one - 1) * 1e-6}) worst = std::max(worst, x == 1 ? 0.0 : ulps(logarithm(x), std::log(static_cast<long double>(x))));
+    const double near_one = std::ldexp(1 + double(random() >> 11) * 0x1p-53, -1 + k % 2),
+                 wide = std::ldexp(near_one, int(random() % 2000) - 1000);
+    for (const double x : {near_one, wide, 1 + (near_one - 1) * 1e-6})
+      worst = std::max(worst, x == 1 ? 0.0 : ulps(logarithm(x), std::log(static_cast<long double>(x))));
   }
   EXPECT_LT(worst, 2);
 }
@@ -33,7 +36,8 @@ TEST(Exponential, IsWithinTwoUlp) {
   double worst = 0;
   for (int k = 0; k < 200000; ++k) {
     const double unit = double(random() >> 11) * 0x1p-52 - 1;
-    for (const double x : {unit, 1e-4 * unit, 700 * unit}) worst = std::max(worst, ulps(exponential(x), std::exp(static_cast<long double>(x))));
+    for (const double x : {unit, 1e-4 * unit, 700 * unit})
+      worst = std::max(worst, ulps(exponential(x), std::exp(static_cast<long double>(x))));
   }
   EXPECT_LT(worst, 2);
 }
@@ -41,7 +45,8 @@ TEST(Exponential, IsWithinTwoUlp) {
 TEST(Logarithm, KeepsNanAndGivesItOutsideItsDomain) {
   EXPECT_EQ(logarithm(1.0), 0.0);
   EXPECT_EQ(logarithm(infinity), infinity);
-  for (const double x : {0.0, -0.0, -1.0, -infinity, nan_value, -nan_value, 0x1p-1030}) EXPECT_TRUE(std::isnan(logarithm(x))) << x;
+  for (const double x : {0.0, -0.0, -1.0, -infinity, nan_value, -nan_value, 0x1p-1030})
+    EXPECT_TRUE(std::isnan(logarithm(x))) << x;
 }
 
 TEST(Exponential, KeepsNanAndEndsInZeroAndInfinity) {

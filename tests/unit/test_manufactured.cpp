@@ -15,10 +15,16 @@ namespace {
 
 Scene scene_of(Law law, Volumetric volumetric) {
   Scene s;
-  s.material.law = law, s.material.volumetric = volumetric;
-  s.material.density = 1100, s.material.youngs_modulus = 17e6, s.material.poissons_ratio = 0.45, s.material.xi = law == Law::mooney_rivlin ? 5e5 : 0;
+  s.material.law = law;
+  s.material.volumetric = volumetric;
+  s.material.density = 1100;
+  s.material.youngs_modulus = 17e6;
+  s.material.poissons_ratio = 0.45;
+  s.material.xi = law == Law::mooney_rivlin ? 5e5 : 0;
   s.initial.field = InitialField::manufactured;
-  s.initial.amplitudes = {0.1, -0.07, 0.12}, s.initial.length = 1.3, s.initial.period = 0.007;
+  s.initial.amplitudes = {0.1, -0.07, 0.12};
+  s.initial.length = 1.3;
+  s.initial.period = 0.007;
   return s;
 }
 
@@ -27,7 +33,8 @@ Vec3 displacement(const Scene& s, const Vec3& X, double t) {
   for (int i = 0; i < 3; ++i) {
     const double pi = std::acos(-1.0);
     u[i] = s.initial.amplitudes[i] * std::cos(2 * pi * t / s.initial.period);
-    for (int m = 0; m < 3; ++m) u[i] *= m == i ? std::sin(pi * X[m] / s.initial.length) : std::cos(pi * X[m] / s.initial.length);
+    for (int m = 0; m < 3; ++m)
+      u[i] *= m == i ? std::sin(pi * X[m] / s.initial.length) : std::cos(pi * X[m] / s.initial.length);
   }
   return u;
 }
@@ -54,7 +61,9 @@ TEST(Manufactured, VelocityAndDeformationAreThoseOfOneMotion) {
     for (int i = 0; i < 3; ++i) {
       EXPECT_NEAR(p.u[i], displacement(s, X, t)[i], 1e-14);
       EXPECT_NEAR(p.v[i], slope([&](double h) { return displacement(s, X, t + h)[i]; }, 1e-5), 1e-6);
-      for (int I = 0; I < 3; ++I) EXPECT_NEAR(p.F[i][I] - (i == I), slope([&](double h) { return displacement(s, shifted(X, I, h), t)[i]; }, 1e-3), 1e-9);
+      for (int I = 0; I < 3; ++I)
+        EXPECT_NEAR(p.F[i][I] - (i == I),
+                    slope([&](double h) { return displacement(s, shifted(X, I, h), t)[i]; }, 1e-3), 1e-9);
     }
   }
 }
@@ -62,8 +71,11 @@ TEST(Manufactured, VelocityAndDeformationAreThoseOfOneMotion) {
 TEST(Manufactured, BodyForceBalancesMomentumForEveryLaw) {
   std::mt19937 random(4);
   std::uniform_real_distribution<double> at(0, 1), when(0, 0.01);
-  for (const auto& [law, volumetric] : {std::pair(Law::linear_elastic, Volumetric::quadratic), {Law::neo_hookean, Volumetric::quadratic}, {Law::neo_hookean, Volumetric::barrier},
-                                        {Law::mooney_rivlin, Volumetric::quadratic}, {Law::mooney_rivlin, Volumetric::barrier}}) {
+  for (const auto& [law, volumetric] : {std::pair(Law::linear_elastic, Volumetric::quadratic),
+                                        {Law::neo_hookean, Volumetric::quadratic},
+                                        {Law::neo_hookean, Volumetric::barrier},
+                                        {Law::mooney_rivlin, Volumetric::quadratic},
+                                        {Law::mooney_rivlin, Volumetric::barrier}}) {
     const Scene s = scene_of(law, volumetric);
     const MaterialConstants m = constants_of(s.material);
     RawMesh raw;
@@ -71,7 +83,8 @@ TEST(Manufactured, BodyForceBalancesMomentumForEveryLaw) {
     Mesh mesh;
     mesh.X = raw.X;
     Order order;
-    order.rows = 8, order.node_of = {0, 1, 2, 3, 4, 5, 6, 7};
+    order.rows = 8;
+    order.node_of = {0, 1, 2, 3, 4, 5, 6, 7};
     const Manufactured force = make_manufactured(s, mesh, order);
     const double t = when(random);
     alignas(64) double U[8 * row::U] = {};
@@ -80,8 +93,15 @@ TEST(Manufactured, BodyForceBalancesMomentumForEveryLaw) {
       for (int i = 0; i < 3; ++i) {
         double expected = slope([&](double h) { return manufactured_solution(s, mesh.X[n], t + h).v[i]; }, 1e-5);
         for (int I = 0; I < 3; ++I)
-          expected -= slope([&](double h) { return exact_stress(s.material, m, manufactured_solution(s, shifted(mesh.X[n], I, h), t))[i][I]; }, 1e-3) / m.rho;
-        EXPECT_NEAR(U[row::U * n + i], expected, 1e-6 * std::max(1e5, std::abs(expected))) << word(law) << ' ' << word(volumetric);
+          expected -= slope(
+                          [&](double h) {
+                            return exact_stress(s.material, m,
+                                                manufactured_solution(s, shifted(mesh.X[n], I, h), t))[i][I];
+                          },
+                          1e-3)
+                      / m.rho;
+        EXPECT_NEAR(U[row::U * n + i], expected, 1e-6 * std::max(1e5, std::abs(expected)))
+            << word(law) << ' ' << word(volumetric);
       }
   }
 }
@@ -89,7 +109,16 @@ TEST(Manufactured, BodyForceBalancesMomentumForEveryLaw) {
 TEST(Manufactured, PlanesOfSymmetryAreHeldExactly) {
   const Scene s = scene_of(Law::neo_hookean, Volumetric::quadratic);
   for (const double X : {0.0, s.initial.length, -s.initial.length, 3 * s.initial.length})
-    for (int k = 0; k < 3; ++k) EXPECT_EQ(manufactured_solution(s, shifted({0.3, 0.2, 0.4}, k, X - (k == 0 ? 0.3 : k == 1 ? 0.2 : 0.4)), 1e-3).v[k], 0.0);
+    for (int k = 0; k < 3; ++k)
+      EXPECT_EQ(manufactured_solution(s,
+                                      shifted({0.3, 0.2, 0.4}, k,
+                                              X
+                                                  - (k == 0   ? 0.3
+                                                     : k == 1 ? 0.2
+                                                              : 0.4)),
+                                      1e-3)
+                    .v[k],
+                0.0);
 }
 
 TEST(Manufactured, ScenesThatAreNotExactAreRefused) {
@@ -124,11 +153,15 @@ energy = false
     EXPECT_TRUE(r.errors[0].starts_with(error)) << error << joined(r.errors);
   };
   refused("\"pFJ\"", "\"pFp\"", "scene.toml:11:15: physics.formulation = \"pFp\": has no exact solution");
-  refused("length = 1", "length = 0.7", "scene.toml:15:10: initial.length = 0.7: the faces of mesh.box must lie on multiples of it");
-  refused("\"symmetric\"", "\"fixed\"", "scene.toml:13:9: initial.field = \"manufactured\": needs kind = \"symmetric\" on all six faces");
-  refused("\"ymin\", ", "", "scene.toml:13:9: initial.field = \"manufactured\": needs kind = \"symmetric\" on all six faces");
+  refused("length = 1", "length = 0.7",
+          "scene.toml:15:10: initial.length = 0.7: the faces of mesh.box must lie on multiples of it");
+  refused("\"symmetric\"", "\"fixed\"",
+          "scene.toml:13:9: initial.field = \"manufactured\": needs kind = \"symmetric\" on all six faces");
+  refused("\"ymin\", ", "",
+          "scene.toml:13:9: initial.field = \"manufactured\": needs kind = \"symmetric\" on all six faces");
   refused("energy = false", "energy = true", "scene.toml:23:10: monitor.energy = true: does not book");
-  refused("formulation = \"pFJ\"", "keep_angular_momentum = true", "scene.toml:11:25: physics.keep_angular_momentum = true: does not book");
+  refused("formulation = \"pFJ\"", "keep_angular_momentum = true",
+          "scene.toml:11:25: physics.keep_angular_momentum = true: does not book");
   refused("period = 0.1", "", "scene.toml:12:1: initial.period: is missing");
 }
 

@@ -43,7 +43,8 @@ TYPED_TEST(MaterialLaws, StressIsTheSlopeOfTheEnergyAlongTheMotion) {
     for (int e = 0; e < 9; ++e) {
       Tensor<double> A{};
       A.a[e / 3][e % 3] = 1;
-      const double dE = slope([&](double h) { return TypeParam::energy(moved<TypeParam>(s, stress.H, A, h), this->m); });
+      const double dE = slope(
+          [&](double h) { return TypeParam::energy(moved<TypeParam>(s, stress.H, A, h), this->m); });
       EXPECT_NEAR(contract(stress.P, A), dE, 1e-8 * (largest_entry(stress.P) + this->m.kappa)) << "entry " << e;
     }
   }
@@ -55,12 +56,12 @@ TYPED_TEST(MaterialLaws, SigmaJIsTheSlopeOfTheEnergyInJ) {
     const MaterialState s = random_state<TypeParam>(random);
     const Stress<double> stress = TypeParam::stress(s, this->m);
     double dE = 0;
-    if constexpr (TypeParam::evolves_J)  // at fixed F and H: dU/dJ, and the isochoric energy's share where that one reads J
+    if constexpr (TypeParam::
+                      evolves_J)  // at fixed F and H: dU/dJ, and the isochoric energy's share where that one reads J
       dE = slope([&](double h) { return TypeParam::energy({s.F, s.H, s.J + h}, this->m); });
     else if constexpr (TypeParam::finite_strain)
       dE = slope([&](double h) { return VolumetricEnergy<TypeParam::volumetric>::U(stress.detF + h, this->m.kappa); });
-    else
-      dE = this->m.kappa * (s.F[0][0] + s.F[1][1] + s.F[2][2] - 3);
+    else dE = this->m.kappa * (s.F[0][0] + s.F[1][1] + s.F[2][2] - 3);
     EXPECT_NEAR(stress.Sigma_J, dE, 1e-8 * (std::abs(dE) + this->m.kappa));
   }
 }
@@ -86,7 +87,8 @@ TYPED_TEST(MaterialLaws, UndeformedStateHasNoStressAndNoEnergy) {
   EXPECT_EQ(stress.detF, 1.0);
   EXPECT_LE(largest_entry(sum(stress.H, identity<double>(), -1)), 0);
   // with the evolved J in the isochoric energy the conjugates of F, H and J balance each other without being zero
-  const double conjugate = TypeParam::isochoric == Isochoric::J ? -2 * (this->m.zeta + 3 * std::sqrt(3.0) * this->m.xi) : 0.0;
+  const double conjugate = TypeParam::isochoric == Isochoric::J ? -2 * (this->m.zeta + 3 * std::sqrt(3.0) * this->m.xi)
+                                                                : 0.0;
   EXPECT_NEAR(stress.Sigma_J, conjugate, 1e-14 * this->m.kappa);
 }
 
@@ -98,7 +100,8 @@ TYPED_TEST(MaterialLaws, ARotatedStateHasTheRotatedStressAndTheSameEnergy) {
       const Tensor<double> R = random_rotation(random);
       const MaterialState rotated{product(R, s.F), product(R, s.H), s.J};
       const Stress<double> before = TypeParam::stress(s, this->m), after = TypeParam::stress(rotated, this->m);
-      EXPECT_LE(largest_entry(sum(after.P, product(R, before.P), -1)), 1e-13 * (largest_entry(before.P) + this->m.kappa));
+      EXPECT_LE(largest_entry(sum(after.P, product(R, before.P), -1)),
+                1e-13 * (largest_entry(before.P) + this->m.kappa));
       EXPECT_NEAR(after.Sigma_J, before.Sigma_J, 1e-13 * (std::abs(before.Sigma_J) + this->m.kappa));
       EXPECT_NEAR(TypeParam::energy(rotated, this->m), TypeParam::energy(s, this->m), 1e-12 * this->m.kappa);
       EXPECT_NEAR(after.rho_c2, before.rho_c2, 1e-11 * before.rho_c2);
@@ -115,7 +118,8 @@ TYPED_TEST(MaterialLaws, StressTimesFTransposedIsSymmetricWhenHAndJBelongToF) {
     Random random(5);
     for (int k = 0; k < 50; ++k) {
       MaterialState s = random_state<TypeParam>(random);
-      s.H = cofactor(s.F), s.J = determinant(s.F, s.H);
+      s.H = cofactor(s.F);
+      s.J = determinant(s.F, s.H);
       const Tensor<double> tau = product(TypeParam::stress(s, this->m).P, transposed(s.F));
       EXPECT_LE(largest_entry(sum(tau, transposed(tau), -1)), 1e-13 * (largest_entry(tau) + this->m.kappa));
     }
@@ -134,7 +138,9 @@ TYPED_TEST(MaterialLaws, LanesHaveTheBitsOfTheScalar) {
     Vec8 J;
     for (int n = 0; n < 8; ++n) {
       s[n] = random_state<TypeParam>(random);
-      set_lane(F, n, s[n].F), set_lane(H, n, s[n].H), J[n] = s[n].J;
+      set_lane(F, n, s[n].F);
+      set_lane(H, n, s[n].H);
+      J[n] = s[n].J;
     }
     const Stress<Vec8> wide = TypeParam::stress(F, H, J, this->m);
     for (int n = 0; n < 8; ++n) {

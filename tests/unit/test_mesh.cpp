@@ -86,7 +86,9 @@ TEST(Mesh, BoundaryFacesPointOutwardAndKnowTheirTet) {
   ASSERT_EQ(mesh.faces.size(), 6u);
   for (const auto& face : mesh.faces) {
     const auto& tet = mesh.tets[face.tet];
-    const int inside = *std::find_if(tet.begin(), tet.end(), [&](int a) { return std::find(face.nodes.begin(), face.nodes.end(), a) == face.nodes.end(); });
+    const int inside = *std::find_if(tet.begin(), tet.end(), [&](int a) {
+      return std::find(face.nodes.begin(), face.nodes.end(), a) == face.nodes.end();
+    });
     EXPECT_LT(tet_volume(mesh.X[face.nodes[0]], mesh.X[face.nodes[1]], mesh.X[face.nodes[2]], mesh.X[inside]), 0);
   }
 }
@@ -142,7 +144,8 @@ TEST(Mesh, AcceptsATriangleGivenTwiceInOnePatch) {
 
 TEST(Mesh, RefusesAMeshWithoutTets) {
   RawMesh raw = two_tets();
-  raw.tets.clear(), raw.tet_region.clear();
+  raw.tets.clear();
+  raw.tet_region.clear();
   expect_refused(raw, {"no tetrahedra", "gmsh -3"});
   expect_refused(RawMesh{}, {"no tetrahedra"});
 }
@@ -214,7 +217,7 @@ TEST(Mesh, RefusesATetInTwoRegionsByTheirNames) {
 
 TEST(Mesh, RefusesCoincidentNodes) {
   for (const double gap : {0.0, 5e-13}) {
-    RawMesh raw = two_tets();                      // a third tet with a node of its own where it should use node 1
+    RawMesh raw = two_tets();  // a third tet with a node of its own where it should use node 1
     raw.X.insert(raw.X.end(), {{1, gap, 0}, {2, 2, 1}});
     add_tet(raw, {2, 4, 5, 6});
     expect_refused(raw, {"nodes 1 and 5", "merge"});
@@ -226,7 +229,7 @@ TEST(Mesh, FindsCoincidentNodesOnlyWhereTheyAre) {
   const int offset = int(first.X.size());
   for (auto x : second.X) first.X.push_back({x[0] + 1, x[1], x[2]});
   for (auto t : second.tets) add_tet(first, {t[0] + offset, t[1] + offset, t[2] + offset, t[3] + offset});
-  const auto errors = errors_of(first);            // the two boxes touch at x = 1 without sharing the 6 x 5 nodes there
+  const auto errors = errors_of(first);  // the two boxes touch at x = 1 without sharing the 6 x 5 nodes there
   ASSERT_EQ(errors.size(), 6u);
   for (int i = 0; i < 5; ++i) EXPECT_NE(errors[i].find("are both at (1, "), std::string::npos) << errors[i];
   EXPECT_EQ(errors[5], "... and 25 more pairs of coincident nodes");
@@ -234,7 +237,7 @@ TEST(Mesh, FindsCoincidentNodesOnlyWhereTheyAre) {
 
 TEST(Mesh, AcceptsNodesThatAreCloseBesideALargeMesh) {
   RawMesh raw = two_tets();
-  const double far = 1e4, small = 1e-6;            // a tiny tet far away
+  const double far = 1e4, small = 1e-6;  // a tiny tet far away
   raw.X.insert(raw.X.end(), {{far, 0, 0}, {far + small, 0, 0}, {far, small, 0}, {far, 0, small}});
   add_tet(raw, {5, 6, 7, 8});
   EXPECT_TRUE(errors_of(raw).empty());
@@ -264,7 +267,7 @@ TEST(Mesh, RefusesTwoTetsOnOneSideOfAFace) {
 
 TEST(Mesh, RefusesATetTurnedInsideOutByItsNode) {
   RawMesh raw = box({2, 2, 2}, {2, 2, 2});
-  raw.X[13] = {1, 1, 2.5};                         // the centre, pushed through the top
+  raw.X[13] = {1, 1, 2.5};  // the centre, pushed through the top
   const auto errors = errors_of(raw);
   EXPECT_TRUE(any_contains(errors, "inside out")) << testing::PrintToString(errors);
 }
@@ -293,7 +296,8 @@ TEST(Mesh, TellsErrorsOfSeveralKindsAtOnce) {
   RawMesh raw = two_tets();
   raw.X.push_back({0, 0, 0});
   const auto errors = errors_of(raw);
-  EXPECT_TRUE(any_contains(errors, "node 5") && any_contains(errors, "nodes 0 and 5")) << testing::PrintToString(errors);
+  EXPECT_TRUE(any_contains(errors, "node 5") && any_contains(errors, "nodes 0 and 5"))
+      << testing::PrintToString(errors);
 }
 
 TEST(Mesh, KeepsTheErrorsThatWereThereBefore) {
@@ -338,6 +342,7 @@ TEST(MeshQuality, NamesTheWorstTetAndWhereItIs) {
   EXPECT_NEAR(q.worst_centre[2], 1.4 / 4, 1e-15);
   EXPECT_EQ(q.unnamed.faces, 5u);
   const std::string text = to_text(q);
-  for (const auto* word : {"nodes 5, tets 2", "tet 1 at (0.35, 0.35, 0.35)", "face floor: 1 triangles, 0.5 m^2", "without a name: 5"})
+  for (const auto* word :
+       {"nodes 5, tets 2", "tet 1 at (0.35, 0.35, 0.35)", "face floor: 1 triangles, 0.5 m^2", "without a name: 5"})
     EXPECT_NE(text.find(word), std::string::npos) << text;
 }

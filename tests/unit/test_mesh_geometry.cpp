@@ -22,7 +22,8 @@ class Environment {
     }
   }
   ~Environment() {
-    for (const auto& [name, value] : before_) value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
+    for (const auto& [name, value] : before_)
+      value ? ::setenv(name.c_str(), value->c_str(), 1) : ::unsetenv(name.c_str());
   }
   Environment(const Environment&) = delete;
   Environment& operator=(const Environment&) = delete;
@@ -37,7 +38,8 @@ struct FakeGmsh {
   std::filesystem::path geo = folder / "body.geo", programs = folder / "bin", temporary = folder / "tmp";
 
   FakeGmsh() {
-    std::filesystem::create_directory(programs), std::filesystem::create_directory(temporary);
+    std::filesystem::create_directory(programs);
+    std::filesystem::create_directory(temporary);
     test::write_text(geo, "Sphere(1) = {0, 0, 0, 1};\n");
   }
   std::vector<std::string> errors(const std::string& script) {
@@ -48,7 +50,8 @@ struct FakeGmsh {
     }
     const Environment environment(programs.string(), temporary.string());
     MeshSpec spec;
-    spec.source = MeshSource::file, spec.file = {geo.string(), "scene.toml:3:8"};
+    spec.source = MeshSource::file;
+    spec.file = {geo.string(), "scene.toml:3:8"};
     std::vector<std::string> errors;
     load_mesh(spec, errors);
     return errors;
@@ -58,16 +61,21 @@ struct FakeGmsh {
 
 TEST(MeshGeometry, WithoutGmshTheErrorNamesThePackage) {
   FakeGmsh fake;
-  EXPECT_EQ(fake.errors(""), std::vector<std::string>{fake.place() + "the program gmsh, which meshes it, is not installed: apt-get install gmsh, "
-                                                                     "or mesh it elsewhere and name the .msh file"});
+  EXPECT_EQ(fake.errors(""),
+            std::vector<std::string>{fake.place()
+                                     + "the program gmsh, which meshes it, is not installed: apt-get install gmsh, "
+                                       "or mesh it elsewhere and name the .msh file"});
 }
 
 TEST(MeshGeometry, GmshsOwnErrorsAndItsExitStatusStandAtTheKey) {
   FakeGmsh fake;
-  EXPECT_EQ(fake.errors("echo 'Info    : Meshing'\necho \"Error   : 'body.geo', line 1: Unknown variable 'r'\" >&2\necho 'Error   : no volume'\nexit 3\n"),
-            (std::vector<std::string>{fake.place() + "gmsh: 'body.geo', line 1: Unknown variable 'r'", fake.place() + "gmsh: no volume",
-                                      fake.place() + "gmsh ended with exit status 3"}));
-  EXPECT_EQ(fake.errors("echo 'Error   : half done'\nexit 0\n"), std::vector<std::string>{fake.place() + "gmsh: half done"});
+  EXPECT_EQ(
+      fake.errors("echo 'Info    : Meshing'\necho \"Error   : 'body.geo', line 1: Unknown variable 'r'\" >&2\necho "
+                  "'Error   : no volume'\nexit 3\n"),
+      (std::vector<std::string>{fake.place() + "gmsh: 'body.geo', line 1: Unknown variable 'r'",
+                                fake.place() + "gmsh: no volume", fake.place() + "gmsh ended with exit status 3"}));
+  EXPECT_EQ(fake.errors("echo 'Error   : half done'\nexit 0\n"),
+            std::vector<std::string>{fake.place() + "gmsh: half done"});
   EXPECT_EQ(fake.errors("kill -9 $$\n"), std::vector<std::string>{fake.place() + "gmsh was ended by signal 9"});
   EXPECT_EQ(fake.errors("exit 0\n"), std::vector<std::string>{fake.place() + "gmsh wrote no mesh"});
 }

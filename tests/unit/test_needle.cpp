@@ -16,7 +16,10 @@ constexpr double inner = 0.1, outer = 1.0, degree = std::numbers::pi / 180;
 RawMesh raw_needle(std::array<int, 3> cells, double angle) {
   MeshSpec spec;
   spec.source = MeshSource::needle;
-  spec.inner = inner, spec.outer = outer, spec.angle = angle, spec.cells = cells;
+  spec.inner = inner;
+  spec.outer = outer;
+  spec.angle = angle;
+  spec.cells = cells;
   return make_needle(spec);
 }
 
@@ -57,7 +60,8 @@ TEST(Needle, FacesLieOnTheSpheresAndOnThePlanesOfTheSides) {
 TEST(Needle, VolumeAndAreasOfOneCellAcrossAreThoseOfAFrustum) {
   for (const double angle : {1.0, 40.0}) {
     const MeshQuality q = mesh_quality(finished(raw_needle({1, 1, 4}, angle)));
-    const double t = std::tan(angle / 2 * degree), to_x = 1 / std::sqrt(1 + 2 * t * t), xi = inner * to_x, xo = outer * to_x;
+    const double t = std::tan(angle / 2 * degree), to_x = 1 / std::sqrt(1 + 2 * t * t), xi = inner * to_x,
+                 xo = outer * to_x;
     EXPECT_NEAR(q.volume / (4 * t * t / 3 * (xo * xo * xo - xi * xi * xi)), 1, 1e-12);
     EXPECT_NEAR(q.patches[0].area / (4 * t * t * xi * xi), 1, 1e-12);
     EXPECT_NEAR(q.patches[1].area / (4 * t * t * xo * xo), 1, 1e-12);
@@ -66,11 +70,14 @@ TEST(Needle, VolumeAndAreasOfOneCellAcrossAreThoseOfAFrustum) {
 }
 
 TEST(Needle, VolumeAndAreasConvergeToTheSolidAngle) {
-  const double solid = 4 * std::asin(std::pow(std::sin(20 * degree), 2));  // of a square pyramid whose opposite sides meet at 40 degrees
+  const double solid = 4
+                       * std::asin(std::pow(std::sin(20 * degree),
+                                            2));  // of a square pyramid whose opposite sides meet at 40 degrees
   double last = 0;
   for (const int n : {2, 4, 8}) {
     const MeshQuality q = mesh_quality(finished(raw_needle({n, n, 2}, 40)));
-    const double volume = 1 - q.volume / (solid / 3 * (outer * outer * outer - inner * inner * inner)), area = 1 - q.patches[1].area / (solid * outer * outer);
+    const double volume = 1 - q.volume / (solid / 3 * (outer * outer * outer - inner * inner * inner)),
+                 area = 1 - q.patches[1].area / (solid * outer * outer);
     EXPECT_GT(volume, 0);
     EXPECT_GT(area, 0);
     EXPECT_LT(area, 0.03);
@@ -105,7 +112,8 @@ TEST(Needle, SymmetricSidesHoldTwoDirectionsAtTheEdgesAndOneOnTheSides) {
 }
 
 TEST(Scene, NeedleIsReadAndChecked) {
-  const std::string scene = edited(small_scene, "box = { size = [1, 2, 3] }", "needle = { inner = 0.1, outer = 1.0, angle = 1 }\ncells = [1, 2, 30]");
+  const std::string scene = edited(small_scene, "box = { size = [1, 2, 3] }",
+                                   "needle = { inner = 0.1, outer = 1.0, angle = 1 }\ncells = [1, 2, 30]");
   const SceneResult r = read_text(scene);
   EXPECT_TRUE(r.errors.empty()) << joined(r.errors);
   EXPECT_EQ(r.scene.mesh.source, MeshSource::needle);
@@ -113,16 +121,20 @@ TEST(Scene, NeedleIsReadAndChecked) {
   EXPECT_EQ(r.scene.mesh.outer, 1.0);
   EXPECT_EQ(r.scene.mesh.angle, 1.0);
   EXPECT_EQ(r.scene.mesh.cells, (std::array<int, 3>{1, 2, 30}));
-  expect_each_refused(scene, {
-      {"inner = 0.1", "inner = 0", "scene.toml:3:20: mesh.needle.inner = 0: must be above 0"},
-      {"outer = 1.0", "outer = 0.1", "scene.toml:3:33: mesh.needle.outer = 0.1: must be above mesh.needle.inner, 0.1"},
-      {", angle = 1", "", "scene.toml:3:10: mesh.needle.angle: is missing"},
-      {"angle = 1", "angle = 91", "scene.toml:3:46: mesh.needle.angle = 91: must be at most 90"},
-      {"[1, 2, 30]", "[1, 0, 30]", "scene.toml:4:13: mesh.cells.1 = 0: must be at least 1"},
-      {"cells = [1, 2, 30]", "", "scene.toml:2:1: mesh.cells: is missing"},
-      {"cells", "perturb = 0.1\ncells", "scene.toml:4:11: mesh.perturb = 0.1: is not a key of needle"},
-      {"cells", "box = { size = [1, 1, 1] }\ncells", "scene.toml:3:10: mesh.needle: stands beside mesh.box, exactly one of box | cylinder | needle | file is allowed"},
-  });
+  expect_each_refused(
+      scene, {
+                 {"inner = 0.1", "inner = 0", "scene.toml:3:20: mesh.needle.inner = 0: must be above 0"},
+                 {"outer = 1.0", "outer = 0.1",
+                  "scene.toml:3:33: mesh.needle.outer = 0.1: must be above mesh.needle.inner, 0.1"},
+                 {", angle = 1", "", "scene.toml:3:10: mesh.needle.angle: is missing"},
+                 {"angle = 1", "angle = 91", "scene.toml:3:46: mesh.needle.angle = 91: must be at most 90"},
+                 {"[1, 2, 30]", "[1, 0, 30]", "scene.toml:4:13: mesh.cells.1 = 0: must be at least 1"},
+                 {"cells = [1, 2, 30]", "", "scene.toml:2:1: mesh.cells: is missing"},
+                 {"cells", "perturb = 0.1\ncells", "scene.toml:4:11: mesh.perturb = 0.1: is not a key of needle"},
+                 {"cells", "box = { size = [1, 1, 1] }\ncells",
+                  "scene.toml:3:10: mesh.needle: stands beside mesh.box, exactly one of box | cylinder | needle | file "
+                  "is allowed"},
+             });
 }
 
 }  // namespace

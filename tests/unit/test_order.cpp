@@ -47,9 +47,12 @@ TEST(Order, PartsTileRowsEdgesAndCorners) {
     EXPECT_EQ(p.corner_begin, corner);
     EXPECT_EQ(p.node_begin % 8, 0);
     EXPECT_EQ(p.node_end % 8, 0);
-    node = p.node_end, edge = p.edge_end, corner = p.corner_end;
+    node = p.node_end;
+    edge = p.edge_end;
+    corner = p.corner_end;
     most_nodes = std::max(most_nodes, p.node_end - p.node_begin);
-    most_edges = std::max(most_edges, p.edge_end - p.edge_begin), most_corners = std::max(most_corners, p.corner_end - p.corner_begin);
+    most_edges = std::max(most_edges, p.edge_end - p.edge_begin);
+    most_corners = std::max(most_corners, p.corner_end - p.corner_begin);
   }
   EXPECT_EQ(node, o.rows);
   EXPECT_EQ(edge, many_parts().edges());
@@ -139,7 +142,10 @@ TEST(Order, NodeListsHoldEveryNeighbourOnce) {
   const Ordered& m = many_parts();
   const Order& o = m.order;
   std::vector<std::multiset<int>> expected(static_cast<std::size_t>(o.rows)), found(static_cast<std::size_t>(o.rows));
-  for (const DualEdge& e : m.dual.edges) expected[o.row_of[e.a]].insert(o.row_of[e.b]), expected[o.row_of[e.b]].insert(o.row_of[e.a]);
+  for (const DualEdge& e : m.dual.edges) {
+    expected[o.row_of[e.a]].insert(o.row_of[e.b]);
+    expected[o.row_of[e.b]].insert(o.row_of[e.a]);
+  }
   for (int r = 0; r < o.rows; ++r) {
     for (int e = o.out[r]; e < o.out[r + 1]; ++e) found[r].insert(o.b[e]);
     for (int k = o.in[r]; k < o.in[r + 1]; ++k) {
@@ -215,7 +221,11 @@ TEST(Order, NeighboursInAPartAreNearInMemory) {
   double distance = 0;
   int inside = 0, widest = 0;
   for (int e = 0; e < m.edges(); ++e)
-    if (m.part_of(o.a[e]) == m.part_of(o.b[e])) distance += o.b[e] - o.a[e], widest = std::max(widest, o.b[e] - o.a[e]), ++inside;
+    if (m.part_of(o.a[e]) == m.part_of(o.b[e])) {
+      distance += o.b[e] - o.a[e];
+      widest = std::max(widest, o.b[e] - o.a[e]);
+      ++inside;
+    }
   EXPECT_LT(distance / inside, 80);  // 53 of 1,130 rows; a random order has a third of them, 377
   EXPECT_LT(widest, 230);            // 152
 }

@@ -18,8 +18,12 @@ TEST(PeakMemory, GrowsByWhatIsTouchedAndStaysWhenItIsFreed) {
   const auto before = peak_bytes();
   ASSERT_TRUE(before);
   EXPECT_GT(*before, 1e6);
-  const std::size_t bytes = static_cast<std::size_t>(*before) + (64u << 20);  // more than is resident now can have been freed before
-  { const auto block = std::make_unique<char[]>(bytes); EXPECT_EQ(block[bytes / 2], 0); }  // value-initialised: every page is written
+  const std::size_t bytes = static_cast<std::size_t>(*before)
+                            + (64u << 20);  // more than is resident now can have been freed before
+  {
+    const auto block = std::make_unique<char[]>(bytes);
+    EXPECT_EQ(block[bytes / 2], 0);
+  }  // value-initialised: every page is written
   const auto after = peak_bytes();
   ASSERT_TRUE(after);
   EXPECT_GE(*after, static_cast<double>(bytes));

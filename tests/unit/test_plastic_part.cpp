@@ -17,23 +17,43 @@ struct EightNodes {
   Rows rows{};
   Part part{};
 
-  explicit EightNodes(double e) : X(8 * row::X, 8.0), U(8 * row::U, 0.0), W(8 * row::W, 0.0), PH(8 * row::PH, 0.0), plastic(8 * row::plastic, 0.0), step_length(8, 0.1) {
+  explicit EightNodes(double e)
+      : X(8 * row::X, 8.0),
+        U(8 * row::U, 0.0),
+        W(8 * row::W, 0.0),
+        PH(8 * row::PH, 0.0),
+        plastic(8 * row::plastic, 0.0),
+        step_length(8, 0.1) {
     for (std::size_t n = 0; n < 8; ++n) {
       U[row::U * n + 3] = 1;
       for (std::size_t I = 0; I < 3; ++I) U[row::U * n + 4 * (I + 1) + I] = plastic[row::plastic * n + I] = 1;
     }
     for (std::size_t I = 0; I < 3; ++I) U[row::U * 3 + 4 * (I + 1) + I] = std::exp(I == 0 ? e : -e / 2);
     MaterialSpec m;
-    m.law = Law::hencky_j2, m.density = 1000, m.youngs_modulus = 1e6, m.poissons_ratio = 0.3, m.yield_stress = 1e4, m.hardening_modulus = 2e4;
-    k.material = constants_of(m), k.rho_cp = m.density * k.material.cp, k.rho_cs = m.density * k.material.cs;
-    rows.X = X.data(), rows.U_new = U.data(), rows.W_new = W.data(), rows.PH_new = PH.data(), rows.plastic = plastic.data();
+    m.law = Law::hencky_j2;
+    m.density = 1000;
+    m.youngs_modulus = 1e6;
+    m.poissons_ratio = 0.3;
+    m.yield_stress = 1e4;
+    m.hardening_modulus = 2e4;
+    k.material = constants_of(m);
+    k.rho_cp = m.density * k.material.cp;
+    k.rho_cs = m.density * k.material.cs;
+    rows.X = X.data();
+    rows.U_new = U.data();
+    rows.W_new = W.data();
+    rows.PH_new = PH.data();
+    rows.plastic = plastic.data();
     part.node_end = 8;
   }
   PartReport stress(bool commits) {
     k.commits = commits;
-    return stress_part<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(part, rows, k, step_length.data());
+    return stress_part<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(part, rows, k,
+                                                                                              step_length.data());
   }
-  double energy() { return strain_energy_part<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(part, rows, k); }
+  double energy() {
+    return strain_energy_part<Law::hencky_j2, Volumetric::quadratic, Isochoric::F, Formulation::pFJ>(part, rows, k);
+  }
 };
 
 TEST(PlasticPart, OnlyAStageThatCommitsKeepsWhatFlowed) {
@@ -43,7 +63,7 @@ TEST(PlasticPart, OnlyAStageThatCommitsKeepsWhatFlowed) {
   EXPECT_EQ(a.plastic, virgin);
   const Aligned<double> P = a.PH;
   const PartReport r = a.stress(true);
-  EXPECT_EQ(a.PH, P);                              // the stress is that of the same return
+  EXPECT_EQ(a.PH, P);  // the stress is that of the same return
   for (std::size_t n = 0; n < 8; ++n)
     for (std::size_t i = 0; i < row::plastic; ++i)
       EXPECT_TRUE(n == 3 || a.plastic[row::plastic * n + i] == virgin[row::plastic * n + i]);

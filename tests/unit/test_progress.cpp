@@ -15,7 +15,9 @@ using Clock = Progress::Clock;
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
 constexpr Clock::time_point start{};
-Clock::time_point after(double seconds) { return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
+Clock::time_point after(double seconds) {
+  return start + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+}
 
 std::string written(std::FILE* file) {
   std::rewind(file);

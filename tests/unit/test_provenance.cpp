@@ -22,8 +22,9 @@ TEST(Provenance, SaysWhatTheProgramIsMadeOf) {
 TEST(Provenance, IsWrittenToResultsWithTheScene) {
   const auto from = provenance();
   const std::vector<std::pair<std::string, std::string>> expected{
-      {"generator", "nanson"}, {"version", from.version}, {"commit", from.commit}, {"compiler", from.compiler}, {"flags", from.flags},
-      {"cpu", from.cpu},       {"host", from.host},       {"threads", "3"},        {"start", from.start},       {"scene", "scene = \"x\"\n"}};
+      {"generator", "nanson"}, {"version", from.version},   {"commit", from.commit}, {"compiler", from.compiler},
+      {"flags", from.flags},   {"cpu", from.cpu},           {"host", from.host},     {"threads", "3"},
+      {"start", from.start},   {"scene", "scene = \"x\"\n"}};
   EXPECT_EQ(results_attributes(from, 3, "scene = \"x\"\n"), expected);
 }
 

@@ -38,7 +38,8 @@ struct Gmsh {
     spec.source = MeshSource::file;
     spec.file = {(folder.path() / "out.msh").string(), "scene.toml:1:1"};
     const auto in = folder.write("in.geo", geo);
-    const std::string command = std::string("'") + GMSH_PROGRAM + "' -3 " + options + " -o '" + spec.file.name + "' '" + in.string() + "' >/dev/null 2>&1";
+    const std::string command = std::string("'") + GMSH_PROGRAM + "' -3 " + options + " -o '" + spec.file.name + "' '"
+                                + in.string() + "' >/dev/null 2>&1";
     EXPECT_EQ(std::system(command.c_str()), 0) << command;
     return load_mesh(spec, errors);
   }
@@ -48,7 +49,8 @@ double volume_of(const Mesh& mesh, const std::string& region) {
   double sum = 0;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
     const auto& n = mesh.tets[t];
-    if (mesh.region_names[mesh.tet_region[t]] == region) sum += tet_volume(mesh.X[n[0]], mesh.X[n[1]], mesh.X[n[2]], mesh.X[n[3]]);
+    if (mesh.region_names[mesh.tet_region[t]] == region)
+      sum += tet_volume(mesh.X[n[0]], mesh.X[n[1]], mesh.X[n[2]], mesh.X[n[3]]);
   }
   return sum;
 }
@@ -110,10 +112,11 @@ TEST(ReadGmsh, RefusesSecondOrderAndPartitionedMeshes) {
 
 TEST(ReadGmsh, RefusesPrismsOfExtrudedLayers) {
   Gmsh gmsh;
-  gmsh.mesh("h = 0.5;\nPoint(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {0, 1, 0, h};\n"
-            "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n"
-            "out() = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };\nPhysical Volume(\"v\") = {out(1)};\n",
-            "-format msh41");
+  gmsh.mesh(
+      "h = 0.5;\nPoint(1) = {0, 0, 0, h}; Point(2) = {1, 0, 0, h}; Point(3) = {0, 1, 0, h};\n"
+      "Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 1};\nCurve Loop(1) = {1, 2, 3}; Plane Surface(1) = {1};\n"
+      "out() = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };\nPhysical Volume(\"v\") = {out(1)};\n",
+      "-format msh41");
   ASSERT_EQ(gmsh.errors.size(), 1u);
   EXPECT_NE(gmsh.errors[0].find("element type 6 (6-node prism)"), std::string::npos) << gmsh.errors[0];
 }

@@ -22,8 +22,13 @@ MshFile sample() {
   const auto tag = [](int a) { return std::int64_t{10} + 3 * a; };
   for (std::size_t a = 0; a < box.X.size(); ++a) file.tags.push_back(tag(int(a)));
   file.names = {{{3, 7}, "soft rubber"}, {{2, 1}, "clamped"}, {{2, 2}, "tip load, lbf"}, {{1, 5}, "a line"}};
-  file.entities = {{0, 1, {}, 15, {{tag(0)}, {tag(2)}}}, {1, 1, {5}, 1, {{tag(0), tag(1)}}}, {2, 1, {1}, 2, {}}, {2, 2, {2}, 2, {}},
-                   {2, 3, {}, 2, {}}, {3, 1, {7}, 4, {}}, {3, 2, {}, 4, {}}};
+  file.entities = {{0, 1, {}, 15, {{tag(0)}, {tag(2)}}},
+                   {1, 1, {5}, 1, {{tag(0), tag(1)}}},
+                   {2, 1, {1}, 2, {}},
+                   {2, 2, {2}, 2, {}},
+                   {2, 3, {}, 2, {}},
+                   {3, 1, {7}, 4, {}},
+                   {3, 2, {}, 4, {}}};
   for (std::size_t i = 0; i < box.triangles.size(); ++i) {
     const auto& t = box.triangles[i];
     const int patch = box.triangle_patch[i];
@@ -74,8 +79,8 @@ constexpr MshForm text22{false, false}, text41{true, false}, binary22{false, tru
 
 /// A tet with one element line more, in version 2.2.
 std::string tet22(const std::string& extra_element, int elements = 2) {
-  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n" + std::to_string(elements) +
-         "\n1 4 2 1 1 1 2 3 4\n" + extra_element + "$EndElements\n";
+  return "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n$Elements\n"
+         + std::to_string(elements) + "\n1 4 2 1 1 1 2 3 4\n" + extra_element + "$EndElements\n";
 }
 
 }  // namespace
@@ -134,7 +139,8 @@ TEST(ReadMesh, TakesSparseTagsAndTagsBeyond32Bits) {
 TEST(ReadMesh, SkipsSectionsItDoesNotNeed) {
   const RawMesh plain = read(write_msh(sample(), text22)).mesh;
   for (const auto& form : all_forms) {
-    std::string content = replaced(write_msh(sample(), form), "$Elements\n", "$Periodic\n1\n2 3 1\nAffine 1 0\n$EndPeriodic\n$Elements\n");
+    std::string content = replaced(write_msh(sample(), form), "$Elements\n",
+                                   "$Periodic\n1\n2 3 1\nAffine 1 0\n$EndPeriodic\n$Elements\n");
     content = "$Comments\nmade by hand: $Nodes 4\n$EndComments\n" + content + "$NodeData\n1\n\"t\"\n$EndNodeData\n";
     const auto [mesh, errors] = read(content);
     EXPECT_TRUE(errors.empty()) << form_name(form) << ": " << errors[0];
@@ -173,7 +179,8 @@ TEST(ReadMesh, GroupsOfOneNameAreOnePatch) {
 TEST(ReadMesh, TakesNegativePhysicalTagsAsTurnedSurfaces) {
   MshFile file = sample();
   file.entities[2].physical = {-1};
-  for (const auto& form : all_forms) expect_equal(read(write_msh(file, form)).mesh, read(write_msh(sample(), form)).mesh);
+  for (const auto& form : all_forms)
+    expect_equal(read(write_msh(file, form)).mesh, read(write_msh(sample(), form)).mesh);
 }
 
 TEST(ReadMesh, ASurfaceInTwoPatchesIsRefusedByTheCheckOfTheMesh) {
@@ -192,7 +199,8 @@ TEST(ReadMesh, AVolumeInTwoGroupsIsRefused) {
   MshFile file = sample();
   file.names[{3, 8}] = "steel";
   file.entities[5].physical = {7, 8};
-  for (const auto& form : {text41, binary41}) expect_refused(write_msh(file, form), "mesh.msh: volume 1", "\"soft rubber\" and \"steel\"");
+  for (const auto& form : {text41, binary41})
+    expect_refused(write_msh(file, form), "mesh.msh: volume 1", "\"soft rubber\" and \"steel\"");
   for (const auto& form : {text22, binary22}) {
     auto [mesh, errors] = read(write_msh(file, form));
     finish_mesh(mesh, errors);
@@ -203,10 +211,11 @@ TEST(ReadMesh, AVolumeInTwoGroupsIsRefused) {
 
 TEST(ReadMesh, LeavesOutConstructionPoints) {
   MshFile file = sample();
-  file.X.insert(file.X.begin() + 3, {9, 9, 9});    // the centre of a circle, say
+  file.X.insert(file.X.begin() + 3, {9, 9, 9});  // the centre of a circle, say
   file.tags.insert(file.tags.begin() + 3, 5);
   file.entities[0].elements.push_back({5});
-  for (const auto& form : all_forms) expect_equal(read(write_msh(file, form)).mesh, read(write_msh(sample(), form)).mesh);
+  for (const auto& form : all_forms)
+    expect_equal(read(write_msh(file, form)).mesh, read(write_msh(sample(), form)).mesh);
 }
 
 TEST(ReadMesh, KeepsOtherNodesOfNoTetForTheCheckOfTheMesh) {
@@ -223,7 +232,8 @@ TEST(ReadMesh, AFileCutOffAnywhereIsRefused) {
   for (const auto& form : all_forms) {
     const std::string whole = write_msh(sample(), form);
     for (std::size_t size = 0; size + 1 < whole.size(); ++size) {  // only the very last line end may be missing
-      ASSERT_EQ(read(whole.substr(0, size)).errors.size(), 1u) << form_name(form) << " cut to " << size << " of " << whole.size() << " bytes";
+      ASSERT_EQ(read(whole.substr(0, size)).errors.size(), 1u)
+          << form_name(form) << " cut to " << size << " of " << whole.size() << " bytes";
     }
   }
 }
@@ -243,24 +253,30 @@ TEST(ReadMesh, DamagedFilesNeverCrash) {
 
 TEST(ReadMesh, CountsBeyondTheSizeOfTheFileAreRefused) {
   const std::string v22 = write_msh(sample(), text22), v41 = write_msh(sample(), text41);
-  expect_refused(replaced(v22, "$Nodes\n12\n", "$Nodes\n4000000000000\n"), "mesh.msh:12: the file says 4000000000000 nodes follow", "cut off");
+  expect_refused(replaced(v22, "$Nodes\n12\n", "$Nodes\n4000000000000\n"),
+                 "mesh.msh:12: the file says 4000000000000 nodes follow", "cut off");
   expect_refused(replaced(v22, "$Nodes\n12\n", "$Nodes\n-3\n"), "mesh.msh:12:", "-3");
-  expect_refused(replaced(v41, "$Nodes\n2 12 ", "$Nodes\n2 900000000000000000 "), "mesh.msh:", "900000000000000000 nodes");
+  expect_refused(replaced(v41, "$Nodes\n2 12 ", "$Nodes\n2 900000000000000000 "),
+                 "mesh.msh:", "900000000000000000 nodes");
   expect_refused(replaced(v41, "$Nodes\n2 12 ", "$Nodes\n2 13 "), "mesh.msh:", "hold 12 nodes, 13 were announced");
   expect_refused(replaced(v41, "$Nodes\n2 12 ", "$Nodes\n2 11 "), "mesh.msh:", "6 nodes where 5 of 11 are left");
 }
 
 TEST(ReadMesh, SecondOrderElementsAreRefusedWithTheLine) {
-  expect_refused(tet22("2 11 2 1 1 1 2 3 4 1 2 3 4 1 2\n"), "mesh.msh:14: element type 11 (10-node tetrahedron) is not supported", "first order elements");
-  expect_refused(tet22("2 9 2 1 1 1 2 3 4 1 2\n"), "mesh.msh:14: element type 9 (6-node triangle)", "first order elements");
+  expect_refused(tet22("2 11 2 1 1 1 2 3 4 1 2 3 4 1 2\n"),
+                 "mesh.msh:14: element type 11 (10-node tetrahedron) is not supported", "first order elements");
+  expect_refused(tet22("2 9 2 1 1 1 2 3 4 1 2\n"), "mesh.msh:14: element type 9 (6-node triangle)",
+                 "first order elements");
   expect_refused(tet22("2 77 2 1 1 1 2 3\n"), "mesh.msh:14: element type 77 is not supported", "");
   MshFile file = sample();
   file.entities[6].type = 11;
-  for (const auto& form : all_forms) expect_refused(write_msh(file, form), "mesh.msh:", "element type 11 (10-node tetrahedron) is not supported");
+  for (const auto& form : all_forms)
+    expect_refused(write_msh(file, form), "mesh.msh:", "element type 11 (10-node tetrahedron) is not supported");
 }
 
 TEST(ReadMesh, OtherShapesThanTetsAreRefused) {
-  expect_refused(tet22("2 5 2 1 1 1 2 3 4 1 2 3 4\n"), "mesh.msh:14: element type 5 (8-node hexahedron)", "tetrahedra only");
+  expect_refused(tet22("2 5 2 1 1 1 2 3 4 1 2 3 4\n"), "mesh.msh:14: element type 5 (8-node hexahedron)",
+                 "tetrahedra only");
   expect_refused(tet22("2 6 2 1 1 1 2 3 4 1 2\n"), "mesh.msh:14: element type 6 (6-node prism)", "tetrahedra only");
   expect_refused(tet22("2 7 2 1 1 1 2 3 4 1\n"), "mesh.msh:14: element type 7 (5-node pyramid)", "tetrahedra only");
 }
@@ -268,33 +284,41 @@ TEST(ReadMesh, OtherShapesThanTetsAreRefused) {
 TEST(ReadMesh, WrongNodesAreRefusedWithTheLine) {
   expect_refused(tet22("2 4 2 1 1 1 2 3 9\n"), "mesh.msh:14: element 2 has the node 9", "not among the nodes");
   expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "3 0 0 1\n"), "mesh.msh:", "node 3 is given twice");
-  expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4 0 zero 1\n"), "mesh.msh:9: expected a number, found \"zero\"", "");
-  expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4.5 0 0 1\n"), "mesh.msh:9: expected a whole number, found \"4.5\"", "");
-  expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4 0 0\n"), "mesh.msh:10: expected a number, found \"$EndNodes\"", "");
+  expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4 0 zero 1\n"), "mesh.msh:9: expected a number, found \"zero\"",
+                 "");
+  expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4.5 0 0 1\n"),
+                 "mesh.msh:9: expected a whole number, found \"4.5\"", "");
+  expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4 0 0\n"), "mesh.msh:10: expected a number, found \"$EndNodes\"",
+                 "");
   expect_refused(replaced(tet22("", 1), "4 0 0 1\n", "4 0 0 1 7\n"), "mesh.msh:9: expected $EndNodes, found \"7\"", "");
 }
 
 TEST(ReadMesh, UnknownVersionsAndKindsOfNumbersAreRefused) {
   const std::string file = tet22("", 1);
-  expect_refused(replaced(file, "2.2 0 8", "4 0 8"), "mesh.msh:2: version 4 of the .msh format is not supported", "msh41");
+  expect_refused(replaced(file, "2.2 0 8", "4 0 8"), "mesh.msh:2: version 4 of the .msh format is not supported",
+                 "msh41");
   expect_refused(replaced(file, "2.2 0 8", "2.2 3 8"), "mesh.msh:2: file type 3", "binary");
   expect_refused(replaced(file, "2.2 0 8", "2.2 0 4"), "mesh.msh:2: numbers of 4 bytes", "8");
 }
 
 TEST(ReadMesh, TheOtherByteOrderIsRefused) {
   for (const auto& form : {binary22, binary41})
-    expect_refused(replaced(write_msh(sample(), form), std::string("\1\0\0\0", 4), std::string("\0\0\0\1", 4)), "mesh.msh: byte 20:", "byte order");
+    expect_refused(replaced(write_msh(sample(), form), std::string("\1\0\0\0", 4), std::string("\0\0\0\1", 4)),
+                   "mesh.msh: byte 20:", "byte order");
 }
 
 TEST(ReadMesh, PartitionedMeshesAreRefused) {
-  expect_refused(replaced(write_msh(sample(), text41), "$Nodes\n", "$PartitionedEntities\n2\n0\n$EndPartitionedEntities\n$Nodes\n"), "mesh.msh:", "partitioned");
+  expect_refused(replaced(write_msh(sample(), text41), "$Nodes\n",
+                          "$PartitionedEntities\n2\n0\n$EndPartitionedEntities\n$Nodes\n"),
+                 "mesh.msh:", "partitioned");
 }
 
 TEST(ReadMesh, SectionsInTheWrongOrderOrTwiceAreRefused) {
   const std::string nodes = "$Nodes\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$EndNodes\n";
   expect_refused(replaced(tet22("", 1), nodes, ""), "mesh.msh:4: $Elements must come after $Nodes", "");
   expect_refused(replaced(tet22("", 1), nodes, nodes + nodes), "mesh.msh:11: a second section $Nodes", "");
-  expect_refused(replaced(tet22("", 1), "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", ""), "mesh.msh:1: $MeshFormat must come first", "older");
+  expect_refused(replaced(tet22("", 1), "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n", ""),
+                 "mesh.msh:1: $MeshFormat must come first", "older");
   expect_refused("solid cube\n", "mesh.msh:1: expected the heading of a section", "");
   expect_refused("", "mesh.msh:1: there is no section $Elements", "");
 }
@@ -391,8 +415,10 @@ TEST(LoadMesh, ErrorsStartWithTheFileAndTheLineThatIsWrong) {
     load_mesh(spec, errors);
     return errors.size() == 1 ? errors[0] : testing::PrintToString(errors);
   };
-  EXPECT_TRUE(error(tet22("2 9 2 1 1 1 2 3 4 1 2\n")).starts_with(spec.file.name + ":14: ")) << error(tet22("2 9 2 1 1 1 2 3 4 1 2\n"));
-  EXPECT_TRUE(error(tet22("2 4 2 1 1 1 2 3 4\n")).starts_with(spec.file.name + ": tets 0 and 1")) << error(tet22("2 4 2 1 1 1 2 3 4\n"));
+  EXPECT_TRUE(error(tet22("2 9 2 1 1 1 2 3 4 1 2\n")).starts_with(spec.file.name + ":14: "))
+      << error(tet22("2 9 2 1 1 1 2 3 4 1 2\n"));
+  EXPECT_TRUE(error(tet22("2 4 2 1 1 1 2 3 4\n")).starts_with(spec.file.name + ": tets 0 and 1"))
+      << error(tet22("2 4 2 1 1 1 2 3 4\n"));
   spec.file.name = "nowhere.msh";
   std::vector<std::string> errors;
   load_mesh(spec, errors);

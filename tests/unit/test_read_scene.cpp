@@ -78,7 +78,8 @@ TEST(Scene, BoundariesAndProbesRememberTheirPlaces) {
 
 TEST(Scene, ProbesKeepTheOrderOfTheFile) {
   const std::string probe = " = { at = [0, 0, 0], fields = [\"x\"] }";
-  const SceneResult r = read_text(small_scene + "[output.probes]\nzulu" + probe + "\nalpha" + probe + "\nmike" + probe + "\n");
+  const SceneResult r = read_text(small_scene + "[output.probes]\nzulu" + probe + "\nalpha" + probe + "\nmike" + probe
+                                  + "\n");
   ASSERT_EQ(r.scene.output.probes.size(), 3u) << joined(r.errors);
   EXPECT_EQ(r.scene.output.probes[0].name, "zulu");
   EXPECT_EQ(r.scene.output.probes[1].name, "alpha");
@@ -103,7 +104,8 @@ TEST(Scene, WhatIsNotWrittenHasTheDefaultOfThePlainStructs) {
 }
 
 TEST(Scene, SectionsWithoutAKeyKeepItsDefault) {
-  EXPECT_EQ(read_text(small_scene + "[output]\nevery = 1\n").scene.output.fields, (std::vector<std::string>{"displacement", "velocity", "pressure"}));
+  EXPECT_EQ(read_text(small_scene + "[output]\nevery = 1\n").scene.output.fields,
+            (std::vector<std::string>{"displacement", "velocity", "pressure"}));
 }
 
 TEST(Scene, CflDefaultFollowsTheIntegrator) {
@@ -114,94 +116,116 @@ TEST(Scene, CflDefaultFollowsTheIntegrator) {
 }
 
 TEST(Scene, RequiredKeysAreMissedAtTheirTable) {
-  expect_each_refused(small_scene, {
-      {"scene = \"small\"", "", "scene.toml:1:1: scene: is missing"},
-      {"box = { size = [1, 2, 3] }", "", "scene.toml:2:1: mesh: exactly one of box | cylinder | needle | file is needed"},
-      {"size = [1, 2, 3]", "", "scene.toml:3:7: mesh.box.size: is missing"},
-      {"law = \"linear_elastic\"", "", "scene.toml:4:1: material.law: is missing, allowed: linear_elastic | neo_hookean | mooney_rivlin | hencky_j2"},
-      {"density = 1000", "", "scene.toml:4:1: material.density: is missing"},
-      {"youngs_modulus = 1e6", "", "scene.toml:4:1: material.youngs_modulus: is missing"},
-      {"poissons_ratio = 0.3", "", "scene.toml:4:1: material.poissons_ratio: is missing"},
-      {"end = 1", "", "scene.toml:9:1: time.end: is missing"},
-      {"[time]\nend = 1\n", "", "scene.toml:1:1: time: is missing"},
-      {"[mesh]\nbox = { size = [1, 2, 3] }\n", "", "scene.toml:1:1: mesh: is missing"},
-      {small_scene.substr(small_scene.find("[material]"), small_scene.find("[time]") - small_scene.find("[material]")), "",
-       "scene.toml:1:1: material: is missing"},
-  });
-  expect_each_refused(column_scene, {
-      {"face = \"zmin\"", "", "scene.toml:30:1: boundary.0.face: is missing"},
-      {"kind = \"fixed\"", "", "scene.toml:30:1: boundary.0.kind: is missing, allowed: fixed | free"},
-      {"at = [0.5, 0.5, 6.0], ", "", "scene.toml:58:25: output.probes.tip.at: is missing"},
-      {", fields = [\"x\", \"velocity\"]", "", "scene.toml:58:25: output.probes.tip.fields: is missing"},
-      {"kind = \"ramp\", ", "", "scene.toml:38:8: boundary.1.time.kind: is missing"},
-  });
+  expect_each_refused(small_scene,
+                      {
+                          {"scene = \"small\"", "", "scene.toml:1:1: scene: is missing"},
+                          {"box = { size = [1, 2, 3] }", "",
+                           "scene.toml:2:1: mesh: exactly one of box | cylinder | needle | file is needed"},
+                          {"size = [1, 2, 3]", "", "scene.toml:3:7: mesh.box.size: is missing"},
+                          {"law = \"linear_elastic\"", "",
+                           "scene.toml:4:1: material.law: is missing, allowed: linear_elastic | neo_hookean | "
+                           "mooney_rivlin | hencky_j2"},
+                          {"density = 1000", "", "scene.toml:4:1: material.density: is missing"},
+                          {"youngs_modulus = 1e6", "", "scene.toml:4:1: material.youngs_modulus: is missing"},
+                          {"poissons_ratio = 0.3", "", "scene.toml:4:1: material.poissons_ratio: is missing"},
+                          {"end = 1", "", "scene.toml:9:1: time.end: is missing"},
+                          {"[time]\nend = 1\n", "", "scene.toml:1:1: time: is missing"},
+                          {"[mesh]\nbox = { size = [1, 2, 3] }\n", "", "scene.toml:1:1: mesh: is missing"},
+                          {small_scene.substr(small_scene.find("[material]"),
+                                              small_scene.find("[time]") - small_scene.find("[material]")),
+                           "", "scene.toml:1:1: material: is missing"},
+                      });
+  expect_each_refused(
+      column_scene,
+      {
+          {"face = \"zmin\"", "", "scene.toml:30:1: boundary.0.face: is missing"},
+          {"kind = \"fixed\"", "", "scene.toml:30:1: boundary.0.kind: is missing, allowed: fixed | free"},
+          {"at = [0.5, 0.5, 6.0], ", "", "scene.toml:58:25: output.probes.tip.at: is missing"},
+          {", fields = [\"x\", \"velocity\"]", "", "scene.toml:58:25: output.probes.tip.fields: is missing"},
+          {"kind = \"ramp\", ", "", "scene.toml:38:8: boundary.1.time.kind: is missing"},
+      });
 }
 
 TEST(Scene, UnknownKeyNamesTheNearestOneAndReplacesItsMissingLine) {
-  expect_each_refused(small_scene, {
-      {"density", "denisty", "scene.toml:6:1: material.denisty = 1000: unknown key, did you mean \"density\"? allowed: law | density"},
-      {"[time]", "[tyme]", "scene.toml:9:2: tyme: unknown key, did you mean \"time\"?"},
-      {"box = {", "bxo = {", "scene.toml:3:1: mesh.bxo: unknown key, did you mean \"box\"? allowed: box | cylinder | needle | file"},
-      {"[material]", "[materiel]", "scene.toml:4:2: materiel: unknown key, did you mean \"material\"?"},
-  });
+  expect_each_refused(
+      small_scene,
+      {
+          {"density", "denisty",
+           "scene.toml:6:1: material.denisty = 1000: unknown key, did you mean \"density\"? allowed: law | density"},
+          {"[time]", "[tyme]", "scene.toml:9:2: tyme: unknown key, did you mean \"time\"?"},
+          {"box = {", "bxo = {",
+           "scene.toml:3:1: mesh.bxo: unknown key, did you mean \"box\"? allowed: box | cylinder | needle | file"},
+          {"[material]", "[materiel]", "scene.toml:4:2: materiel: unknown key, did you mean \"material\"?"},
+      });
 }
 
 TEST(Scene, UnknownKeyFarFromAllListsWhatIsAllowed) {
-  expect_each_refused(small_scene, {
-      {"end = 1", "end = 1\ntitle = 2", "scene.toml:11:1: time.title = 2: unknown key, allowed: end | integrator | cfl"},
-      {"scene =", "title = 1\nscene =", "scene.toml:1:1: title = 1: unknown key, allowed: scene | mesh | material"},
-  });
+  expect_each_refused(
+      small_scene,
+      {
+          {"end = 1", "end = 1\ntitle = 2",
+           "scene.toml:11:1: time.title = 2: unknown key, allowed: end | integrator | cfl"},
+          {"scene =", "title = 1\nscene =", "scene.toml:1:1: title = 1: unknown key, allowed: scene | mesh | material"},
+      });
 }
 
 TEST(Scene, EverySectionRefusesUnknownKeys) {
-  const auto error = [](const std::string& place, const std::string& key) { return "scene.toml:" + place + ": " + key + " = 1: unknown key,"; };
+  const auto error = [](const std::string& place, const std::string& key) {
+    return "scene.toml:" + place + ": " + key + " = 1: unknown key,";
+  };
   expect_each_refused(column_scene, {
-      {"\n[mesh]", "qq = 1\n[mesh]", error("2:1", "qq")},
-      {"origin", "qq = 1, origin", error("4:13", "mesh.box.qq")},
-      {"\n[material]", "qq = 1\n[material]", error("8:1", "mesh.qq")},
-      {"\n[physics]", "qq = 1\n[physics]", error("16:1", "material.qq")},
-      {"\n[initial]", "qq = 1\n[initial]", error("24:1", "physics.qq")},
-      {"\n[[boundary]]", "qq = 1\n[[boundary]]", error("29:1", "initial.qq")},
-      {"\n[body_force]", "qq = 1\n[body_force]", error("39:1", "boundary.1.qq")},
-      {"until = 0.01", "until = 0.01, qq = 1", error("38:39", "boundary.1.time.qq")},
-      {"\n[time]", "qq = 1\n[time]", error("42:1", "body_force.qq")},
-      {"\n[output]", "qq = 1\n[output]", error("52:1", "time.qq")},
-      {"\n[monitor]", "qq = 1\n[monitor]", error("59:1", "output.qq")},
-      {"tip = { at", "tip = { qq = 1, at", error("58:27", "output.probes.tip.qq")},
-      {"\nenergy ", "\nqq = 1\nenergy ", error("61:1", "monitor.qq")},
-  });
+                                        {"\n[mesh]", "qq = 1\n[mesh]", error("2:1", "qq")},
+                                        {"origin", "qq = 1, origin", error("4:13", "mesh.box.qq")},
+                                        {"\n[material]", "qq = 1\n[material]", error("8:1", "mesh.qq")},
+                                        {"\n[physics]", "qq = 1\n[physics]", error("16:1", "material.qq")},
+                                        {"\n[initial]", "qq = 1\n[initial]", error("24:1", "physics.qq")},
+                                        {"\n[[boundary]]", "qq = 1\n[[boundary]]", error("29:1", "initial.qq")},
+                                        {"\n[body_force]", "qq = 1\n[body_force]", error("39:1", "boundary.1.qq")},
+                                        {"until = 0.01", "until = 0.01, qq = 1", error("38:39", "boundary.1.time.qq")},
+                                        {"\n[time]", "qq = 1\n[time]", error("42:1", "body_force.qq")},
+                                        {"\n[output]", "qq = 1\n[output]", error("52:1", "time.qq")},
+                                        {"\n[monitor]", "qq = 1\n[monitor]", error("59:1", "output.qq")},
+                                        {"tip = { at", "tip = { qq = 1, at", error("58:27", "output.probes.tip.qq")},
+                                        {"\nenergy ", "\nqq = 1\nenergy ", error("61:1", "monitor.qq")},
+                                    });
 }
 
 TEST(Scene, FeaturesThatAreNotBuiltAreUnknown) {
-  expect_each_refused(small_scene, {
-      {"linear_elastic", "ogden",
-      "scene.toml:5:7: material.law = \"ogden\": unknown word, allowed: linear_elastic | neo_hookean | mooney_rivlin | hencky_j2"},
-      {"[material]", "[[material]]", "scene.toml:4:1: material.0.region: is missing"},
-      {"end = 1", "end = 1\ndamping = 1.0", "scene.toml:11:1: time.damping = 1.0: unknown key"},
-  });
-  expect_each_refused(column_scene, {
-  });
+  expect_each_refused(small_scene,
+                      {
+                          {"linear_elastic", "ogden",
+                           "scene.toml:5:7: material.law = \"ogden\": unknown word, allowed: linear_elastic | "
+                           "neo_hookean | mooney_rivlin | hencky_j2"},
+                          {"[material]", "[[material]]", "scene.toml:4:1: material.0.region: is missing"},
+                          {"end = 1", "end = 1\ndamping = 1.0", "scene.toml:11:1: time.damping = 1.0: unknown key"},
+                      });
+  expect_each_refused(column_scene, {});
 }
 
 TEST(Scene, SectionsOfTheWrongShapeAreRefused) {
-  expect_each_refused(small_scene, {
-      {"scene = \"small\"", "scene = \"small\"\nphysics = 3",
-      "scene.toml:2:11: physics = 3: must be a table, written [physics] or physics = { ... }"},
-      {"scene = \"small\"", "scene = \"small\"\nboundary = { face = \"a\" }",
-      "scene.toml:2:12: boundary: must be a list of tables, each written [[boundary]]"},
-      {"scene = \"small\"", "scene = \"small\"\nboundary = [ 1 ]", "scene.toml:2:14: boundary.0 = 1: must be a table, written [[boundary]]"},
-      {"box = { size = [1, 2, 3] }", "box = 1", "scene.toml:3:7: mesh.box = 1: must be a table"},
-      {"[time]", "[output]\nprobes = { tip = 3 }\n[time]", "scene.toml:10:18: output.probes.tip = 3: must be a table"},
-  });
+  expect_each_refused(small_scene,
+                      {
+                          {"scene = \"small\"", "scene = \"small\"\nphysics = 3",
+                           "scene.toml:2:11: physics = 3: must be a table, written [physics] or physics = { ... }"},
+                          {"scene = \"small\"", "scene = \"small\"\nboundary = { face = \"a\" }",
+                           "scene.toml:2:12: boundary: must be a list of tables, each written [[boundary]]"},
+                          {"scene = \"small\"", "scene = \"small\"\nboundary = [ 1 ]",
+                           "scene.toml:2:14: boundary.0 = 1: must be a table, written [[boundary]]"},
+                          {"box = { size = [1, 2, 3] }", "box = 1", "scene.toml:3:7: mesh.box = 1: must be a table"},
+                          {"[time]", "[output]\nprobes = { tip = 3 }\n[time]",
+                           "scene.toml:10:18: output.probes.tip = 3: must be a table"},
+                      });
 }
 
 TEST(Scene, NameMustBePlainBecauseItBecomesAFolder) {
-  expect_each_refused(small_scene, {
-      {"\"small\"", "\"two words\"", "scene.toml:1:9: scene = \"two words\": names a folder: use letters, digits, - and _ only"},
-      {"\"small\"", "\"../up\"", "scene.toml:1:9: scene = \"../up\": names a folder"},
-      {"\"small\"", "\"\"", "scene.toml:1:9: scene = \"\": names a folder"},
-      {"\"small\"", "7", "scene.toml:1:9: scene = 7: must be a string"},
-  });
+  expect_each_refused(small_scene,
+                      {
+                          {"\"small\"", "\"two words\"",
+                           "scene.toml:1:9: scene = \"two words\": names a folder: use letters, digits, - and _ only"},
+                          {"\"small\"", "\"../up\"", "scene.toml:1:9: scene = \"../up\": names a folder"},
+                          {"\"small\"", "\"\"", "scene.toml:1:9: scene = \"\": names a folder"},
+                          {"\"small\"", "7", "scene.toml:1:9: scene = 7: must be a string"},
+                      });
   expect_each_accepted(small_scene, {{"small", "Az_0-9"}});
 }
 
@@ -267,35 +291,47 @@ fields = ["x", "velocty", "x"]
 probes = { tip = { at = [0, 0], fields = [] } }
 )";
   const std::vector<std::string> expected = {
-      "scene.toml:1:1: title = \"x\": unknown key, allowed: scene | mesh | material | physics | projection | initial | boundary | body_force | time | output | monitor",
-      "scene.toml:1:1: time: is missing", "scene.toml:2:9: scene = \"twisting column\": names a folder: use letters, digits, - and _ only",
-      "scene.toml:4:10: monitor.energy = 1: must be true or false", "scene.toml:6:57: mesh.box.size.2 = 0: must be above 0",
+      "scene.toml:1:1: title = \"x\": unknown key, allowed: scene | mesh | material | physics | projection | initial | "
+      "boundary | body_force | time | output | monitor",
+      "scene.toml:1:1: time: is missing",
+      "scene.toml:2:9: scene = \"twisting column\": names a folder: use letters, digits, - and _ only",
+      "scene.toml:4:10: monitor.energy = 1: must be true or false",
+      "scene.toml:6:57: mesh.box.size.2 = 0: must be above 0",
       "scene.toml:7:16: mesh.cells.2 = 2.0: must be a whole number",
       "scene.toml:8:9: mesh.split = \"kuh\": unknown word, did you mean \"kuhn\"? allowed: alternating | kuhn",
-      "scene.toml:10:18: material.law = \"neohookean\": unknown word, did you mean \"neo_hookean\"? allowed: linear_elastic | neo_hookean | mooney_rivlin | hencky_j2",
-      "scene.toml:11:1: material.denisty = 1100.0: unknown key, did you mean \"density\"? allowed: law | density | youngs_modulus | poissons_ratio | volumetric | "
+      "scene.toml:10:18: material.law = \"neohookean\": unknown word, did you mean \"neo_hookean\"? allowed: "
+      "linear_elastic | neo_hookean | mooney_rivlin | hencky_j2",
+      "scene.toml:11:1: material.denisty = 1100.0: unknown key, did you mean \"density\"? allowed: law | density | "
+      "youngs_modulus | poissons_ratio | volumetric | "
       "isochoric",
       "scene.toml:12:18: material.youngs_modulus = \"17.0e6\": must be a number",
       "scene.toml:13:18: material.poissons_ratio = 0.5: must be below 0.5 unless physics.formulation = \"pFp\"",
-      "scene.toml:16:17: physics.pressure_jump = \"tensor\": needs an evolved J, which formulation = \"pF\" does not carry",
-      "scene.toml:17:1: initial.height: is missing", "scene.toml:19:9: initial.omega = nan: must be finite",
+      "scene.toml:16:17: physics.pressure_jump = \"tensor\": needs an evolved J, which formulation = \"pF\" does not "
+      "carry",
+      "scene.toml:17:1: initial.height: is missing",
+      "scene.toml:19:9: initial.omega = nan: must be finite",
       "scene.toml:20:9: initial.v = 3: is not a key of twist, whose keys are omega | height",
-      "scene.toml:22:25: boundary.0.face.2 = \"zmin\": kind fixed cannot join kind fixed of scene.toml:22:9: the list names it twice",
+      "scene.toml:22:25: boundary.0.face.2 = \"zmin\": kind fixed cannot join kind fixed of scene.toml:22:9: the list "
+      "names it twice",
       "scene.toml:24:1: boundary.1.p: is missing",
-      "scene.toml:25:8: boundary.1.face = \"zmax\": kind pressure cannot join kind fixed of scene.toml:22:17: a load does nothing on a face that is held in all "
+      "scene.toml:25:8: boundary.1.face = \"zmax\": kind pressure cannot join kind fixed of scene.toml:22:17: a load "
+      "does nothing on a face that is held in all "
       "directions",
       "scene.toml:27:8: boundary.1.t = [1, 2, 3]: is not a key of pressure, whose keys are p",
-      "scene.toml:29:16: output.fields.1 = \"velocty\": unknown field, did you mean \"velocity\"? allowed: x | displacement | velocity | pressure | P | F | H | J | "
+      "scene.toml:29:16: output.fields.1 = \"velocty\": unknown field, did you mean \"velocity\"? allowed: x | "
+      "displacement | velocity | pressure | P | F | H | J | "
       "detF | von_mises | plastic_strain",
-      "scene.toml:29:27: output.fields.2 = \"x\": is named twice", "scene.toml:30:25: output.probes.tip.at = [0, 0]: must be three numbers",
+      "scene.toml:29:27: output.fields.2 = \"x\": is named twice",
+      "scene.toml:30:25: output.probes.tip.at = [0, 0]: must be three numbers",
       "scene.toml:30:42: output.probes.tip.fields = []: must name at least one field",
-      "--set #1: abc: must be KEY=VALUE, like material.density=1000.0", "--set #2: output.compress = 10: must be at most 9"};
+      "--set #1: abc: must be KEY=VALUE, like material.density=1000.0",
+      "--set #2: output.compress = 10: must be at most 9"};
   EXPECT_EQ(read_text(bad, {"abc", "output.compress=10"}).errors, expected);
 }
 
 TEST(Scene, LongValuesAreCutInMessages) {
-  const SceneResult r =
-      read_text(edited(small_scene, "density = 1000", "density = \"" + std::string(71, 'x') + "\u00e9" + std::string(1000, 'y') + "\""));
+  const SceneResult r = read_text(edited(
+      small_scene, "density = 1000", "density = \"" + std::string(71, 'x') + "\u00e9" + std::string(1000, 'y') + "\""));
   ASSERT_EQ(r.errors.size(), 1u);
   EXPECT_EQ(r.errors[0], "scene.toml:6:11: material.density = \"" + std::string(71, 'x') + " ...: must be a number");
 }
@@ -319,17 +355,10 @@ TEST(Scene, DamagedTextGivesErrorsOrAUsableScene) {
     for (std::size_t n = 1 + below(3); n > 0 && !text.empty(); --n) {
       const std::size_t at = below(text.size()), length = std::min(1 + below(i % 10 == 0 ? 200 : 4), text.size() - at);
       switch (below(4)) {
-        case 0:
-          text.erase(at, length);
-          break;
-        case 1:
-          text.insert(at, text.substr(at, length));
-          break;
-        case 2:
-          text[at] = static_cast<char>(random() % 256);
-          break;
-        default:
-          text.insert(below(text.size()), text.substr(at, length));
+        case 0: text.erase(at, length); break;
+        case 1: text.insert(at, text.substr(at, length)); break;
+        case 2: text[at] = static_cast<char>(random() % 256); break;
+        default: text.insert(below(text.size()), text.substr(at, length));
       }
     }
     const SceneResult r = read_text(text);

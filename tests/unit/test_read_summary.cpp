@@ -15,8 +15,12 @@ namespace {
 
 TEST(ReadSummary, GivesBackWhatWasWritten) {
   Summary s;
-  s.status = "breakdown", s.cause = "detF", s.reason = "tab\t \"quoted\" \\ \u00e9";
-  s.nodes = 117649, s.wall_s = 0.1 + 0.2, s.linear_momentum_drift = -1.25e-300;
+  s.status = "breakdown";
+  s.cause = "detF";
+  s.reason = "tab\t \"quoted\" \\ \u00e9";
+  s.nodes = 117649;
+  s.wall_s = 0.1 + 0.2;
+  s.linear_momentum_drift = -1.25e-300;
   s.min_detF = std::nan("");
   s.errors["p1_L2"] = 1.0 / 3;
   s.probes["tip"]["x"] = {1, 2.5, -3};
@@ -38,15 +42,20 @@ TEST(ReadSummary, EveryCutOfASummaryIsRefused) {
   const std::string json = summary_json({}, {});
   for (std::size_t n = 0; n + 2 < json.size(); ++n) EXPECT_FALSE(parse_summary(json.substr(0, n))) << n;
   EXPECT_FALSE(parse_summary(json + "}"));
-  for (const char* bad : {"{\"a\": nan}", "{\"a\": inf}", "{a: 1}", "{\"a\" 1}", "{\"a\": 1,}", "{\"a\": \"\\q\"}", "{\"a\": \"\\u12\"}"}) EXPECT_FALSE(parse_summary(bad)) << bad;
+  for (const char* bad :
+       {"{\"a\": nan}", "{\"a\": inf}", "{a: 1}", "{\"a\" 1}", "{\"a\": 1,}", "{\"a\": \"\\q\"}", "{\"a\": \"\\u12\"}"})
+    EXPECT_FALSE(parse_summary(bad)) << bad;
 }
 
 TEST(ReadSummary, NumberKeysAreThoseOfTheFile) {
   Summary s;
   s.projection.emplace();
   s.throughput = Throughput{1, 1, 1, 1, 1, 1};
-  s.energy.closure = s.energy.external_work = s.energy.dissipated = s.energy.angular_momentum_work = s.energy.lost_at_start = 0;
-  s.angular_momentum_drift = 0, s.nodes = 1, s.peak_bytes = 0;
+  s.energy.closure = s.energy.external_work = s.energy.dissipated = s.energy.angular_momentum_work =
+      s.energy.lost_at_start = 0;
+  s.angular_momentum_drift = 0;
+  s.nodes = 1;
+  s.peak_bytes = 0;
   for (const char* name : error_names) s.errors[name] = 0;
   std::vector<std::string> written;
   const auto read = parse_summary(summary_json(s, {}));

@@ -50,7 +50,8 @@ TEST(ResultsFolder, OnlyBeginRemovesAndOnlyWhatARunWrites) {
   ResultsFolder results("beam", folder.path());
   EXPECT_EQ(test::read_text(folder / "run.vtkhdf"), "old");
   EXPECT_EQ(results.begin(), (std::vector<std::string>{"summary.json", "history.csv", "run.xdmf", "run.vtkhdf"}));
-  for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json"}) EXPECT_FALSE(fs::exists(folder / name)) << name;
+  for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json"})
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
   for (const char* name : {"notes.txt", "run.vtkhdf.old"}) EXPECT_EQ(test::read_text(folder / name), "old");
   EXPECT_TRUE(results.begin().empty());
 }
@@ -61,7 +62,8 @@ TEST(ResultsFolder, ASecondRunIsRefusedWhileTheFirstOneLives) {
                                + ") is writing to this folder; wait for it or name another one with --out";
   {
     const ResultsFolder first("beam", folder.path());
-    EXPECT_EQ(test::run_child([&] { return refusal([&] { ResultsFolder("beam", folder.path()); }) == expected ? 0 : 1; }), 0);
+    EXPECT_EQ(
+        test::run_child([&] { return refusal([&] { ResultsFolder("beam", folder.path()); }) == expected ? 0 : 1; }), 0);
     EXPECT_EQ(refusal([&] { ResultsFolder("beam", folder.path()); }), expected);
   }
   EXPECT_EQ(test::run_child([&] {
@@ -84,7 +86,8 @@ TEST(ResultsFolder, AKilledRunLeavesNoLock) {
 TEST(ResultsFolder, AFileInItsPlaceIsReported) {
   const test::TemporaryFolder folder;
   test::write_text(folder / "file", "");
-  EXPECT_EQ(refusal([&] { ResultsFolder("beam", folder / "file"); }), (folder / "file").string() + ": is a file, not a folder");
+  EXPECT_EQ(refusal([&] { ResultsFolder("beam", folder / "file"); }),
+            (folder / "file").string() + ": is a file, not a folder");
   EXPECT_EQ(refusal([&] { ResultsFolder("beam", folder / "file/below"); }),
             (folder / "file/below").string() + ": the folder could not be created: Not a directory");
   EXPECT_EQ(refusal([&] { ResultsFolder("beam", ""); }), "the name of the results folder is empty");
@@ -94,16 +97,19 @@ TEST(ResultsFolder, AFolderInPlaceOfAResultIsNotRemoved) {
   const test::TemporaryFolder folder;
   fs::create_directory(folder / "run.vtkhdf");
   ResultsFolder results("beam", folder.path());
-  EXPECT_EQ(refusal([&] { results.begin(); }), (folder / "run.vtkhdf").string() + ": is a folder, where results are to be written");
+  EXPECT_EQ(refusal([&] { results.begin(); }),
+            (folder / "run.vtkhdf").string() + ": is a folder, where results are to be written");
   EXPECT_TRUE(fs::exists(folder / "run.vtkhdf"));
 }
 
 TEST(ResultsFolder, AFolderThatCannotBeWrittenToIsReported) {
   const test::TemporaryFolder folder;
-  fs::permissions(folder.path(), fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  fs::permissions(folder.path(),
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
   const int ended = test::run_child([&] {
     if (::getuid() == 0 && ::setuid(65534) != 0) return 1;  // the administrator may write anywhere
-    return refusal([&] { ResultsFolder("beam", folder.path()); }) == folder.path().string() + ": the folder cannot be written to: Permission denied"
+    return refusal([&] { ResultsFolder("beam", folder.path()); })
+                   == folder.path().string() + ": the folder cannot be written to: Permission denied"
                ? 0
                : 2;
   });

@@ -24,7 +24,8 @@ TEST(Scene, BoundaryKindsReadTheirValue) {
   EXPECT_EQ(read_boundary(entry("a", "traction", "t = [1, 2, 3]\n"))[0].traction, (Vec3{1, 2, 3}));
   EXPECT_EQ(read_boundary(entry("a", "pressure", "p = -5\n"))[0].pressure, -5);
   EXPECT_EQ(read_boundary(entry("a", "velocity", "v = [1, 2, 3]\n"))[0].velocity, (Vec3{1, 2, 3}));
-  for (const std::string kind : {"fixed", "free", "symmetric", "skew_symmetric"}) EXPECT_EQ(word(read_boundary(entry("a", kind))[0].kind), kind);
+  for (const std::string kind : {"fixed", "free", "symmetric", "skew_symmetric"})
+    EXPECT_EQ(word(read_boundary(entry("a", kind))[0].kind), kind);
 }
 
 TEST(Scene, BoundaryFacesAreOneNameOrAList) {
@@ -32,21 +33,26 @@ TEST(Scene, BoundaryFacesAreOneNameOrAList) {
   const auto list = read_boundary("[[boundary]]\nface = [\"a\", \"b\"]\nkind = \"fixed\"\n");
   ASSERT_EQ(list[0].faces.size(), 2u);
   EXPECT_EQ(list[0].faces[1].name, "b");
-  expect_error("[[boundary]]\nface = []\nkind = \"fixed\"\n", "scene.toml:12:8: boundary.0.face = []: must name at least one face");
-  expect_error("[[boundary]]\nface = [\"a\", 1]\nkind = \"fixed\"\n", "scene.toml:12:14: boundary.0.face.1 = 1: must be a string");
+  expect_error("[[boundary]]\nface = []\nkind = \"fixed\"\n",
+               "scene.toml:12:8: boundary.0.face = []: must name at least one face");
+  expect_error("[[boundary]]\nface = [\"a\", 1]\nkind = \"fixed\"\n",
+               "scene.toml:12:14: boundary.0.face.1 = 1: must be a string");
 }
 
 TEST(Scene, VelocityLeavesFreeComponents) {
   const BoundarySpec b = read_boundary(entry("a", "velocity", "v = [1.5, \"free\", 0]\n"))[0];
   EXPECT_EQ(b.held, (std::array<bool, 3>{true, false, true}));
   EXPECT_EQ(b.velocity, (Vec3{1.5, 0, 0}));
-  expect_error(entry("a", "velocity", "v = [1, \"fre\", 0]\n"), "scene.toml:14:9: boundary.0.v.1 = \"fre\": must be a number or \"free\"");
-  expect_error(entry("a", "velocity", "v = [1, true, 0]\n"), "scene.toml:14:9: boundary.0.v.1 = true: must be a number");
+  expect_error(entry("a", "velocity", "v = [1, \"fre\", 0]\n"),
+               "scene.toml:14:9: boundary.0.v.1 = \"fre\": must be a number or \"free\"");
+  expect_error(entry("a", "velocity", "v = [1, true, 0]\n"),
+               "scene.toml:14:9: boundary.0.v.1 = true: must be a number");
   expect_error(entry("a", "velocity", "v = [1, inf, 0]\n"), "scene.toml:14:9: boundary.0.v.1 = inf: must be finite");
-  expect_error(entry("a", "velocity", "v = [1, 2]\n"), "scene.toml:14:5: boundary.0.v = [1, 2]: must be three numbers, or \"free\" in place of some");
+  expect_error(entry("a", "velocity", "v = [1, 2]\n"),
+               "scene.toml:14:5: boundary.0.v = [1, 2]: must be three numbers, or \"free\" in place of some");
   expect_error(entry("a", "velocity", "v = 1\n"), "scene.toml:14:5: boundary.0.v = 1: must be three numbers");
   expect_error(entry("a", "velocity", "v = [\"free\", \"free\", \"free\"]\n"),
-      "scene.toml:14:5: boundary.0.v = [\"free\", \"free\", \"free\"]: holds no component");
+               "scene.toml:14:5: boundary.0.v = [\"free\", \"free\", \"free\"]: holds no component");
 }
 
 TEST(Scene, BoundaryKindsRequireTheirValue) {
@@ -56,15 +62,20 @@ TEST(Scene, BoundaryKindsRequireTheirValue) {
 }
 
 TEST(Scene, KeysOfOtherBoundaryKindsAreRefused) {
-  expect_error(entry("a", "fixed", "t = [1, 2, 3]\n"), "scene.toml:14:5: boundary.0.t = [1, 2, 3]: is not a key of fixed");
-  expect_error(entry("a", "symmetric", "v = [1, 2, 3]\n"), "scene.toml:14:5: boundary.0.v = [1, 2, 3]: is not a key of symmetric");
-  expect_error(
-      entry("a", "pressure", "p = 1\nt = [1, 2, 3]\n"), "scene.toml:15:5: boundary.0.t = [1, 2, 3]: is not a key of pressure, whose keys are p");
-  expect_error(entry("a", "traction", "t = [1, 2, 3]\np = 1\n"), "scene.toml:15:5: boundary.0.p = 1: is not a key of traction, whose keys are t");
+  expect_error(entry("a", "fixed", "t = [1, 2, 3]\n"),
+               "scene.toml:14:5: boundary.0.t = [1, 2, 3]: is not a key of fixed");
+  expect_error(entry("a", "symmetric", "v = [1, 2, 3]\n"),
+               "scene.toml:14:5: boundary.0.v = [1, 2, 3]: is not a key of symmetric");
+  expect_error(entry("a", "pressure", "p = 1\nt = [1, 2, 3]\n"),
+               "scene.toml:15:5: boundary.0.t = [1, 2, 3]: is not a key of pressure, whose keys are p");
+  expect_error(entry("a", "traction", "t = [1, 2, 3]\np = 1\n"),
+               "scene.toml:15:5: boundary.0.p = 1: is not a key of traction, whose keys are t");
 }
 
 TEST(Scene, TimeFunctionsReadTheirKeys) {
-  const auto read = [](const std::string& time) { return read_boundary(entry("a", "pressure", "p = 1\ntime = " + time + "\n"))[0].time; };
+  const auto read = [](const std::string& time) {
+    return read_boundary(entry("a", "pressure", "p = 1\ntime = " + time + "\n"))[0].time;
+  };
   EXPECT_EQ(read("{ kind = \"constant\" }").kind, TimeKind::constant);
   EXPECT_EQ(read("{ kind = \"ramp\", until = 2 }").until, 2);
   const TimeFunction sine = read("{ kind = \"sine\", frequency = 3, phase = -1 }");
@@ -78,7 +89,8 @@ TEST(Scene, TimeFunctionsReadTheirKeys) {
   EXPECT_EQ(logistic.rate, 4);
   EXPECT_EQ(logistic.centre, 5);
   EXPECT_EQ(logistic.until, 6);
-  EXPECT_EQ(read("{ kind = \"table\", points = [[0, 1], [0.5, 2.5]] }").points, (std::vector<std::pair<double, double>>{{0, 1}, {0.5, 2.5}}));
+  EXPECT_EQ(read("{ kind = \"table\", points = [[0, 1], [0.5, 2.5]] }").points,
+            (std::vector<std::pair<double, double>>{{0, 1}, {0.5, 2.5}}));
 }
 
 TEST(Scene, TimeFunctionsCheckTheirParameters) {
@@ -100,9 +112,12 @@ TEST(Scene, TimeFunctionsCheckTheirParameters) {
   refuse("\"logistic\", rate = 1, centre = 1", "8: boundary.0.time.until: is missing");
   refuse("\"table\"", "8: boundary.0.time.points: is missing");
   refuse("\"table\", points = 1", "35: boundary.0.time.points = 1: must be a list of at least two points [t, factor]");
-  refuse("\"table\", points = [[0, 1]]", "35: boundary.0.time.points = [[0, 1]]: must be a list of at least two points");
-  refuse("\"table\", points = [[0, 1], [0, 2]]", "44: boundary.0.time.points.1 = [0, 2]: must come after the point at t = 0");
-  refuse("\"table\", points = [[0, 1], [1, 2, 3]]", "44: boundary.0.time.points.1 = [1, 2, 3]: must be two numbers [t, factor]");
+  refuse("\"table\", points = [[0, 1]]",
+         "35: boundary.0.time.points = [[0, 1]]: must be a list of at least two points");
+  refuse("\"table\", points = [[0, 1], [0, 2]]",
+         "44: boundary.0.time.points.1 = [0, 2]: must come after the point at t = 0");
+  refuse("\"table\", points = [[0, 1], [1, 2, 3]]",
+         "44: boundary.0.time.points.1 = [1, 2, 3]: must be two numbers [t, factor]");
   refuse("\"table\", points = [[0, 1], 1]", "44: boundary.0.time.points.1 = 1: must be two numbers");
   refuse("\"table\", points = [[0, 1], [1, inf]]", "48: boundary.0.time.points.1.1 = inf: must be finite");
   refuse("\"table\", points = [[0, 1], [\"1\", 1]]", "45: boundary.0.time.points.1.0 = \"1\": must be a number");
@@ -113,7 +128,8 @@ TEST(Scene, TimeFunctionsCheckTheirParameters) {
 TEST(Scene, TimeIsRefusedOnKindsWithoutAValue) {
   const std::string ramp = "time = { kind = \"ramp\", until = 1 }\n", constant = "time = { kind = \"constant\" }\n";
   for (const std::string kind : {"fixed", "free", "symmetric", "skew_symmetric"}) {
-    expect_error(entry("a", kind, ramp), "scene.toml:14:8: boundary.0.time: kind " + kind + " has no value that could change in time");
+    expect_error(entry("a", kind, ramp),
+                 "scene.toml:14:8: boundary.0.time: kind " + kind + " has no value that could change in time");
     read_boundary(entry("a", kind, constant));
   }
   read_boundary(entry("a", "traction", "t = [1, 2, 3]\n" + ramp));
@@ -123,8 +139,8 @@ TEST(Scene, TimeIsRefusedOnKindsWithoutAValue) {
 TEST(Scene, KindsThatCombineMayShareAFace) {
   const std::string t = entry("a", "traction", "t = [1, 2, 3]\n"), p = entry("a", "pressure", "p = 1\n"),
                     sliding = entry("a", "velocity", "v = [0, \"free\", \"free\"]\n");
-  for (const std::string& both :
-      {t + p, t + entry("a", "symmetric"), p + entry("a", "skew_symmetric"), entry("a", "symmetric") + p, sliding + t, p + sliding})
+  for (const std::string& both : {t + p, t + entry("a", "symmetric"), p + entry("a", "skew_symmetric"),
+                                  entry("a", "symmetric") + p, sliding + t, p + sliding})
     read_boundary(both);
   read_boundary(entry("a", "fixed") + entry("b", "fixed"));
 }
@@ -132,11 +148,14 @@ TEST(Scene, KindsThatCombineMayShareAFace) {
 TEST(Scene, KindsThatExcludeEachOtherNameBothPlaces) {
   const std::string t = entry("a", "traction", "t = [1, 2, 3]\n"), p = entry("a", "pressure", "p = 1\n"),
                     v = entry("a", "velocity", "v = [0, 0, 0]\n");
-  const auto join = [](const std::string& b, const std::string& a) { return "kind " + b + " cannot join kind " + a + " of scene.toml:12:8: "; };
+  const auto join = [](const std::string& b, const std::string& a) {
+    return "kind " + b + " cannot join kind " + a + " of scene.toml:12:8: ";
+  };
   const auto later = [](const std::string& line) { return "scene.toml:" + line + ":8: boundary.1.face = \"a\": "; };
-  expect_error(entry("a", "fixed") + entry("a", "symmetric"), later("15") + join("symmetric", "fixed") + "the face would be held twice");
-  expect_error(
-      entry("a", "skew_symmetric") + entry("a", "symmetric"), later("15") + join("symmetric", "skew_symmetric") + "the face would be held twice");
+  expect_error(entry("a", "fixed") + entry("a", "symmetric"),
+               later("15") + join("symmetric", "fixed") + "the face would be held twice");
+  expect_error(entry("a", "skew_symmetric") + entry("a", "symmetric"),
+               later("15") + join("symmetric", "skew_symmetric") + "the face would be held twice");
   expect_error(entry("a", "fixed") + v, later("15") + join("velocity", "fixed") + "the face would be held twice");
   expect_error(entry("a", "fixed") + entry("a", "fixed"), later("15") + join("fixed", "fixed") + "the same kind twice");
   expect_error(t + t, later("16") + join("traction", "traction") + "the same kind twice");
@@ -148,12 +167,14 @@ TEST(Scene, KindsThatExcludeEachOtherNameBothPlaces) {
   expect_error(entry("a", "free") + p, later("15") + join("pressure", "free") + "a free face takes nothing else");
   expect_error(t + entry("a", "free"), later("16") + join("free", "traction") + "a free face takes nothing else");
   expect_error("[[boundary]]\nface = [\"a\", \"b\", \"a\"]\nkind = \"fixed\"\n",
-      "scene.toml:12:19: boundary.0.face.2 = \"a\": kind fixed cannot join kind fixed of scene.toml:12:9: the list names it twice");
+               "scene.toml:12:19: boundary.0.face.2 = \"a\": kind fixed cannot join kind fixed of scene.toml:12:9: the "
+               "list names it twice");
 }
 
 TEST(Scene, AThirdEntryIsComparedWithAllBefore) {
   expect_error(entry("a", "pressure", "p = 1\n") + entry("a", "symmetric") + entry("a", "skew_symmetric"),
-      "scene.toml:19:8: boundary.2.face = \"a\": kind skew_symmetric cannot join kind symmetric of scene.toml:16:8: the face would be held twice");
+               "scene.toml:19:8: boundary.2.face = \"a\": kind skew_symmetric cannot join kind symmetric of "
+               "scene.toml:16:8: the face would be held twice");
 }
 
 }  // namespace

@@ -56,7 +56,11 @@ TEST(SceneMaterials, SeveralAreRead) {
 }
 
 TEST(SceneMaterials, OneForAllRegionsIsOneMaterial) {
-  const std::string one = edited(edited(two_materials, "\"left\"\nlaw", "[\"left\", \"right\"]\nlaw"), two_materials.substr(two_materials.rfind("[[material]]"), two_materials.find("[time]") - two_materials.rfind("[[material]]")), "");
+  const std::string one = edited(
+      edited(two_materials, "\"left\"\nlaw", "[\"left\", \"right\"]\nlaw"),
+      two_materials.substr(two_materials.rfind("[[material]]"),
+                           two_materials.find("[time]") - two_materials.rfind("[[material]]")),
+      "");
   const SceneResult r = read_text(one);
   EXPECT_TRUE(r.errors.empty()) << joined(r.errors);
   EXPECT_TRUE(r.scene.materials.empty());
@@ -65,47 +69,68 @@ TEST(SceneMaterials, OneForAllRegionsIsOneMaterial) {
 }
 
 TEST(SceneMaterials, WrongEntriesAreRefused) {
-  expect_each_refused(two_materials, {
-      {"region = \"left\"\n", "", "scene.toml:6:1: material.0.region: is missing"},
-      {"region = \"left\"", "region = []", "scene.toml:7:10: material.0.region = []: must name at least one region"},
-      {"region = \"left\"", "region = 3", "scene.toml:7:10: material.0.region = 3: must be a name or a list of names"},
-      {"[\"right\"]", "[\"right\", \"left\"]", "scene.toml:13:20: material.1.region.1 = \"left\": has the material of scene.toml:7:10 already"},
-      {"density = 3000", "density = -1", "scene.toml:15:11: material.1.density = -1: must be above 0"},
-      {"density = 3000", "density = 3000\nvolumetric = \"barrier\"", "scene.toml:16:14: material.1.volumetric = \"barrier\": has no meaning for hencky_j2"},
-      {"poissons_ratio = 0.3\nyield", "poissons_ratio = 0.5\nyield", "scene.toml:17:18: material.1.poissons_ratio = 0.5: must be below 0.5"},
-      {"neo_hookean", "linear_elastic", "scene.toml:14:7: material.1.law = \"hencky_j2\": cannot stand beside that of material.0"},
+  expect_each_refused(
+      two_materials,
+      {
+          {"region = \"left\"\n", "", "scene.toml:6:1: material.0.region: is missing"},
+          {"region = \"left\"", "region = []",
+           "scene.toml:7:10: material.0.region = []: must name at least one region"},
+          {"region = \"left\"", "region = 3",
+           "scene.toml:7:10: material.0.region = 3: must be a name or a list of names"},
+          {"[\"right\"]", "[\"right\", \"left\"]",
+           "scene.toml:13:20: material.1.region.1 = \"left\": has the material of scene.toml:7:10 already"},
+          {"density = 3000", "density = -1", "scene.toml:15:11: material.1.density = -1: must be above 0"},
+          {"density = 3000", "density = 3000\nvolumetric = \"barrier\"",
+           "scene.toml:16:14: material.1.volumetric = \"barrier\": has no meaning for hencky_j2"},
+          {"poissons_ratio = 0.3\nyield", "poissons_ratio = 0.5\nyield",
+           "scene.toml:17:18: material.1.poissons_ratio = 0.5: must be below 0.5"},
+          {"neo_hookean", "linear_elastic",
+           "scene.toml:14:7: material.1.law = \"hencky_j2\": cannot stand beside that of material.0"},
 
-  });
-  expect_each_refused(small_scene, {{"law =", "region = \"box\"\nlaw =", "scene.toml:5:10: material.region = \"box\": is a key of [[material]] only"}});
+      });
+  expect_each_refused(small_scene, {{"law =", "region = \"box\"\nlaw =",
+                                     "scene.toml:5:10: material.region = \"box\": is a key of [[material]] only"}});
 }
 
 TEST(SceneMaterials, WhatIsNotBuiltWithSeveralIsRefused) {
-  const auto physics = [](const std::string& line) { return edited(two_materials, "[time]", "[physics]\n" + line + "\n[time]"); };
+  const auto physics = [](const std::string& line) {
+    return edited(two_materials, "[time]", "[physics]\n" + line + "\n[time]");
+  };
   for (const auto& [line, error] : std::vector<std::pair<std::string, std::string>>{
            {"formulation = \"pFHJ\"", "formulation = \"pFHJ\": is not built with several materials, allowed: pF | pFJ"},
            {"stabilisation = \"jst\"", "stabilisation = \"jst\": is not built with several materials, allowed: upwind"},
-           {"pressure_jump = \"tensor\"", "pressure_jump = \"tensor\": is not built with several materials, allowed: scalar"},
-           {"reconstruction = \"limited\"", "reconstruction = \"limited\": is not built with several materials, allowed: constant | linear"},
-           {"flux_correction = \"full\"", "flux_correction = \"full\": is not built with several materials, allowed: none"},
-           {"upwind_metric = \"paper\"", "upwind_metric = \"paper\": is not built with several materials, allowed: deformed"},
+           {"pressure_jump = \"tensor\"",
+            "pressure_jump = \"tensor\": is not built with several materials, allowed: scalar"},
+           {"reconstruction = \"limited\"",
+            "reconstruction = \"limited\": is not built with several materials, allowed: constant | linear"},
+           {"flux_correction = \"full\"",
+            "flux_correction = \"full\": is not built with several materials, allowed: none"},
+           {"upwind_metric = \"paper\"",
+            "upwind_metric = \"paper\": is not built with several materials, allowed: deformed"},
            {"entropy_fix = \"edge\"", "entropy_fix = \"edge\": is not built with several materials, allowed: none"},
-           {"keep_angular_momentum = true", "keep_angular_momentum = true: is not built with several materials, allowed: false"},
-           {"description = \"updated\"", "description = \"updated\": is not built with several materials, allowed: total"}}) {
+           {"keep_angular_momentum = true",
+            "keep_angular_momentum = true: is not built with several materials, allowed: false"},
+           {"description = \"updated\"",
+            "description = \"updated\": is not built with several materials, allowed: total"}}) {
     const SceneResult r = read_text(physics(line));
     ASSERT_EQ(r.errors.size(), 1u) << line << joined(r.errors);
     EXPECT_NE(r.errors[0].find("scene.toml:21:"), std::string::npos) << r.errors[0];
     EXPECT_NE(r.errors[0].find("physics." + error), std::string::npos) << r.errors[0];
   }
-  const SceneResult wave = read_text(edited(two_materials, "[time]", "[initial]\nfield = \"plane_wave\"\namplitude = 1\nlength = 1\n[time]"));
+  const SceneResult wave = read_text(
+      edited(two_materials, "[time]", "[initial]\nfield = \"plane_wave\"\namplitude = 1\nlength = 1\n[time]"));
   ASSERT_EQ(wave.errors.size(), 1u) << joined(wave.errors);
-  EXPECT_TRUE(wave.errors[0].starts_with("scene.toml:21:9: initial.field = \"plane_wave\": is the exact solution of one material")) << wave.errors[0];
+  EXPECT_TRUE(wave.errors[0].starts_with(
+      "scene.toml:21:9: initial.field = \"plane_wave\": is the exact solution of one material"))
+      << wave.errors[0];
   const SceneResult projected = read_text(physics("formulation = \"pFp\""));
   ASSERT_EQ(projected.errors.size(), 1u) << joined(projected.errors);
   EXPECT_NE(projected.errors[0].find("is not built with several materials"), std::string::npos) << projected.errors[0];
 }
 
 TEST(SceneMaterials, LayersOfTheBox) {
-  const SceneResult r = read_text(edited(two_materials, "[0.5], names = [\"left\", \"right\"]", "[0.5, 1.5], names = [\"left\", \"right\", \"rest\"]"));
+  const SceneResult r = read_text(edited(two_materials, "[0.5], names = [\"left\", \"right\"]",
+                                         "[0.5, 1.5], names = [\"left\", \"right\", \"rest\"]"));
   ASSERT_TRUE(r.errors.empty()) << joined(r.errors);
   const RawMesh raw = make_box(r.scene.mesh);
   int tets[3]{};
@@ -113,36 +138,53 @@ TEST(SceneMaterials, LayersOfTheBox) {
   EXPECT_EQ(tets[0], 24);
   EXPECT_EQ(tets[1], 48);
   EXPECT_EQ(tets[2], 24);
-  expect_each_refused(two_materials, {
-      {"[0.5]", "[0.6]", "scene.toml:5:31: mesh.regions.at.0 = 0.6: cuts through cells: the nearest plane between two of the 4 is at 0.5"},
-      {"[0.5]", "[2]", "scene.toml:5:31: mesh.regions.at.0 = 2: must lie inside the box, between 0 and 2"},
-      {"[0.5], names = [\"left\", \"right\"]", "[1, 0.5], names = [\"left\", \"right\", \"c\"]", "scene.toml:5:34: mesh.regions.at.1 = 0.5: must lie above the plane before it"},
-      {"names = [\"left\", \"right\"]", "names = [\"left\"]", "scene.toml:5:45: mesh.regions.names = [\"left\"]: must be 2 names, one more than planes"},
-      {"names = [\"left\", \"right\"]", "names = [\"left\", \"left\"]", "scene.toml:5:54: mesh.regions.names.1 = \"left\": is named twice"},
-      {"axis = \"x\"", "axis = \"r\"", "scene.toml:5:20: mesh.regions.axis = \"r\": unknown word, allowed: x | y | z"},
-      {"at = [0.5]", "at = 0.5", "scene.toml:5:30: mesh.regions.at = 0.5: must be a list of the planes"},
-  });
+  expect_each_refused(
+      two_materials,
+      {
+          {"[0.5]", "[0.6]",
+           "scene.toml:5:31: mesh.regions.at.0 = 0.6: cuts through cells: the nearest plane between two of the 4 is at "
+           "0.5"},
+          {"[0.5]", "[2]", "scene.toml:5:31: mesh.regions.at.0 = 2: must lie inside the box, between 0 and 2"},
+          {"[0.5], names = [\"left\", \"right\"]", "[1, 0.5], names = [\"left\", \"right\", \"c\"]",
+           "scene.toml:5:34: mesh.regions.at.1 = 0.5: must lie above the plane before it"},
+          {"names = [\"left\", \"right\"]", "names = [\"left\"]",
+           "scene.toml:5:45: mesh.regions.names = [\"left\"]: must be 2 names, one more than planes"},
+          {"names = [\"left\", \"right\"]", "names = [\"left\", \"left\"]",
+           "scene.toml:5:54: mesh.regions.names.1 = \"left\": is named twice"},
+          {"axis = \"x\"", "axis = \"r\"",
+           "scene.toml:5:20: mesh.regions.axis = \"r\": unknown word, allowed: x | y | z"},
+          {"at = [0.5]", "at = 0.5", "scene.toml:5:30: mesh.regions.at = 0.5: must be a list of the planes"},
+      });
 }
 
 TEST(SceneMaterials, AllErrorsOfTheMeshComeAtOnce) {
-  const std::vector<std::string> errors = mesh_errors(edited(edited(two_materials, "region = \"left\"", "region = \"lefd\""), "region = [\"right\"]", "region = [\"top\"]"));
-  EXPECT_EQ(errors, (std::vector<std::string>{"scene.toml:7:10: material.0.region = \"lefd\": unknown region, did you mean \"left\"? allowed: left | right",
-                                              "scene.toml:13:11: material.1.region = \"top\": unknown region, allowed: left | right",
-                                              "scene.toml:7:10: material: no [[material]] is for region \"left\" of the mesh, which has 24 tets",
-                                              "scene.toml:7:10: material: no [[material]] is for region \"right\" of the mesh, which has 72 tets"}));
+  const std::vector<std::string> errors = mesh_errors(edited(
+      edited(two_materials, "region = \"left\"", "region = \"lefd\""), "region = [\"right\"]", "region = [\"top\"]"));
+  EXPECT_EQ(
+      errors,
+      (std::vector<std::string>{
+          "scene.toml:7:10: material.0.region = \"lefd\": unknown region, did you mean \"left\"? allowed: left | right",
+          "scene.toml:13:11: material.1.region = \"top\": unknown region, allowed: left | right",
+          "scene.toml:7:10: material: no [[material]] is for region \"left\" of the mesh, which has 24 tets",
+          "scene.toml:7:10: material: no [[material]] is for region \"right\" of the mesh, which has 72 tets"}));
 }
 
 TEST(SceneMaterials, PlasticRegionsThatTouchAreRefused) {
-  const std::string both = edited(two_materials, "\"neo_hookean\"", "\"hencky_j2\"\nyield_stress = 1e4\nhardening_modulus = 0");
+  const std::string both = edited(two_materials, "\"neo_hookean\"",
+                                  "\"hencky_j2\"\nyield_stress = 1e4\nhardening_modulus = 0");
   const std::vector<std::string> errors = mesh_errors(both);
   ASSERT_EQ(errors.size(), 1u) << joined(errors);
-  EXPECT_TRUE(errors[0].starts_with("scene.toml:15:11: material.1.region = \"right\": touches region \"left\", hencky_j2 too")) << errors[0];
+  EXPECT_TRUE(
+      errors[0].starts_with("scene.toml:15:11: material.1.region = \"right\": touches region \"left\", hencky_j2 too"))
+      << errors[0];
 }
 
 /// Two blocks of a gmsh file, physical volumes "soft" and "hard", joined at x = 1: the mass is that of the volumes, in every form of the file.
 TEST(SceneMaterials, PhysicalVolumesOfGmshHaveTheirOwnMaterial) {
   MeshSpec spec;
-  spec.size = {3, 1, 1}, spec.cells = {3, 2, 2}, spec.regions = {Axis::x, {1}, {"soft", "hard"}};
+  spec.size = {3, 1, 1};
+  spec.cells = {3, 2, 2};
+  spec.regions = {Axis::x, {1}, {"soft", "hard"}};
   const RawMesh box = make_box(spec);
   MshFile file;
   file.names = {{{3, 1}, "soft"}, {{3, 2}, "hard"}};
@@ -151,12 +193,16 @@ TEST(SceneMaterials, PhysicalVolumesOfGmshHaveTheirOwnMaterial) {
   for (int r = 0; r < 2; ++r) {
     MshEntity volume{3, r + 1, {r + 1}, 4, {}};
     for (std::size_t t = 0; t < box.tets.size(); ++t)
-      if (box.tet_region[t] == r) volume.elements.push_back({box.tets[t][0] + 1, box.tets[t][1] + 1, box.tets[t][2] + 1, box.tets[t][3] + 1});
+      if (box.tet_region[t] == r)
+        volume.elements.push_back({box.tets[t][0] + 1, box.tets[t][1] + 1, box.tets[t][2] + 1, box.tets[t][3] + 1});
     file.entities.push_back(volume);
   }
   const TemporaryFolder folder;
   const std::string path = folder.write("two.msh", write_msh22(file, {false, false})).string();
-  std::string text = edited(two_materials, "box = { size = [2, 1, 1] }\ncells = [4, 2, 2]\nregions = { axis = \"x\", at = [0.5], names = [\"left\", \"right\"] }", "file = \"" + path + "\"");
+  std::string text = edited(two_materials,
+                            "box = { size = [2, 1, 1] }\ncells = [4, 2, 2]\nregions = { axis = \"x\", at = [0.5], "
+                            "names = [\"left\", \"right\"] }",
+                            "file = \"" + path + "\"");
   text = edited(edited(text, "\"left\"", "\"soft\""), "\"right\"", "\"hard\"");
   const SceneResult r = read_text(text);
   ASSERT_TRUE(r.errors.empty()) << joined(r.errors);

@@ -28,7 +28,8 @@ struct {
 
 /// Stands in front of the system's for the whole test program.
 extern "C" ssize_t pwrite(int fd, const void* data, std::size_t size, off_t at) {
-  const bool concerned = trouble.fault != Fault::none && (trouble.fault != Fault::disk_full || at + off_t(size) > trouble.old_size);
+  const bool concerned = trouble.fault != Fault::none
+                         && (trouble.fault != Fault::disk_full || at + off_t(size) > trouble.old_size);
   if (concerned && ++trouble.seen > trouble.after) {
     if (trouble.fault == Fault::kill) ::raise(SIGKILL);
     errno = trouble.fault == Fault::disk_full ? ENOSPC : EIO;
@@ -65,7 +66,8 @@ std::size_t check_frames(const std::filesystem::path& path, const Mesh& mesh, st
     for (std::size_t i = 0; i < count; ++i) {
       const auto expected = sample_values(mesh, field, double(i));
       EXPECT_EQ(times[i], double(i));
-      EXPECT_EQ(test::read<float>(file, fmt::format("/frames/{:06}/{}", i, field.name)), expected) << "frame " << i << " of " << count;
+      EXPECT_EQ(test::read<float>(file, fmt::format("/frames/{:06}/{}", i, field.name)), expected)
+          << "frame " << i << " of " << count;
       EXPECT_TRUE(std::equal(expected.begin(), expected.end(), all.begin() + std::ptrdiff_t(i * expected.size())))
           << "frame " << i << " of " << count;
     }
@@ -75,7 +77,8 @@ std::size_t check_frames(const std::filesystem::path& path, const Mesh& mesh, st
 
 /// Frames whose appending changes most in the file: the first ones, and those where HDF5 splits its tables (8 frames a table of names, 64 chunks a node).
 bool worth_trying(std::size_t frame) {
-  return frame < 2 || frame == 4 || frame == 8 || frame == 9 || frame == 12 || frame == 63 || frame == 64 || frame == 128;
+  return frame < 2 || frame == 4 || frame == 8 || frame == 9 || frame == 12 || frame == 63 || frame == 64
+         || frame == 128;
 }
 
 TEST(StagedFile, ARunKilledBeforeAnyOfItsWritesKeepsEarlierFrames) {
@@ -124,8 +127,9 @@ long frames_with_trouble(const test::TemporaryFolder& folder, Fault fault, const
         trouble.fault = Fault::none;
       } catch (const std::runtime_error& error) {
         trouble.fault = Fault::none;
-        EXPECT_EQ(std::string(error.what()), fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable",
-                                                         path.string(), frame, frame, reason));
+        EXPECT_EQ(std::string(error.what()),
+                  fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable",
+                              path.string(), frame, frame, reason));
         EXPECT_TRUE(fault == Fault::disk_broken || std::filesystem::file_size(path) == size);
         ++refused;
       }

@@ -20,36 +20,53 @@ constexpr int nodes = 24;
 
 MaterialSpec material_spec(Law law, Volumetric volumetric, Isochoric isochoric) {
   MaterialSpec m;
-  m.law = law, m.volumetric = volumetric, m.isochoric = isochoric;
-  m.density = 1100, m.youngs_modulus = 17, m.poissons_ratio = 0.45, m.xi = law == Law::mooney_rivlin ? 0.3 : 0.0;
+  m.law = law;
+  m.volumetric = volumetric;
+  m.isochoric = isochoric;
+  m.density = 1100;
+  m.youngs_modulus = 17;
+  m.poissons_ratio = 0.45;
+  m.xi = law == Law::mooney_rivlin ? 0.3 : 0.0;
   return m;
 }
 
 /// Rows of 24 nodes, undeformed and at rest, and the part function of a material.
 template <class Material_>
 struct StressPart : ::testing::Test {
-  Aligned<double> U = Aligned<double>(row::U * nodes), H = Aligned<double>(row::H * nodes), X = Aligned<double>(row::X * nodes, 1.0);
-  Aligned<double> W = Aligned<double>(row::W * nodes, NaN), PH = Aligned<double>(row::PH * nodes, NaN), length = Aligned<double>(nodes, 0.5);
+  Aligned<double> U = Aligned<double>(row::U * nodes), H = Aligned<double>(row::H * nodes),
+                  X = Aligned<double>(row::X * nodes, 1.0);
+  Aligned<double> W = Aligned<double>(row::W * nodes, NaN), PH = Aligned<double>(row::PH * nodes, NaN),
+                  length = Aligned<double>(nodes, 0.5);
   MaterialSpec spec = material_spec(Material_::law, Material_::volumetric, Material_::isochoric);
   Coefficients k;
   PartFunctions functions;
 
   StressPart() {
     PhysicsSpec physics;
-    physics.formulation = Material_::formulation, physics.parting = Material_::parting == Parting::energy ? 0.7 : 0;
+    physics.formulation = Material_::formulation;
+    physics.parting = Material_::parting == Parting::energy ? 0.7 : 0;
     functions = find_part_functions(physics, spec);
-    k.material = constants_of(spec), k.material.parting = physics.parting * k.material.mu;
-    k.rho_cp = k.material.rho * k.material.cp, k.rho_cs = k.material.rho * k.material.cs;
+    k.material = constants_of(spec);
+    k.material.parting = physics.parting * k.material.mu;
+    k.rho_cp = k.material.rho * k.material.cp;
+    k.rho_cs = k.material.rho * k.material.cs;
     for (int n = 0; n < nodes; ++n) set(n, undeformed());
   }
   void set(int n, const MaterialState& s, Vec3 v = {}) {
-    for (int m = 0; m < 9; ++m) U[row::U * n + 4 * (m / 3 + 1) + m % 3] = s.F[m % 3][m / 3], H[row::H * n + 4 * (m / 3) + m % 3] = s.H[m % 3][m / 3];
+    for (int m = 0; m < 9; ++m) {
+      U[row::U * n + 4 * (m / 3 + 1) + m % 3] = s.F[m % 3][m / 3];
+      H[row::H * n + 4 * (m / 3) + m % 3] = s.H[m % 3][m / 3];
+    }
     for (int i = 0; i < 3; ++i) U[row::U * n + i] = v[i];
     U[row::U * n + 3] = s.J;
   }
   Rows rows() {
     Rows r{};
-    r.X = X.data(), r.U_new = U.data(), r.H_new = H.data(), r.W_new = W.data(), r.PH_new = PH.data();
+    r.X = X.data();
+    r.U_new = U.data();
+    r.H_new = H.data();
+    r.W_new = W.data();
+    r.PH_new = PH.data();
     return r;
   }
   PartReport run() {
@@ -74,7 +91,10 @@ MaterialState row_state(Random& random) {
 TYPED_TEST(StressPart, WritesVelocitySigmaJAndTheColumnsOfPAndH) {
   Random random(1);
   MaterialState s[nodes];
-  for (int n = 0; n < nodes; ++n) s[n] = row_state<TypeParam>(random), this->set(n, s[n], {1.0 + n, 2.0 + n, 3.0 + n});
+  for (int n = 0; n < nodes; ++n) {
+    s[n] = row_state<TypeParam>(random);
+    this->set(n, s[n], {1.0 + n, 2.0 + n, 3.0 + n});
+  }
   EXPECT_FALSE(this->run().broken);
   for (int n = 0; n < nodes; ++n) {
     const Stress<double> stress = TypeParam::stress(s[n], this->k.material);
@@ -97,7 +117,8 @@ TYPED_TEST(StressPart, WritesTheSameRowsPastTheCaches) {
   for (int n = 0; n < nodes; ++n) this->set(n, row_state<TypeParam>(random), {1.0 + n, 2.0 + n, 3.0 + n});
   this->run();
   const Aligned<double> W = this->W, PH = this->PH;
-  std::fill(this->W.begin(), this->W.end(), NaN), std::fill(this->PH.begin(), this->PH.end(), NaN);
+  std::fill(this->W.begin(), this->W.end(), NaN);
+  std::fill(this->PH.begin(), this->PH.end(), NaN);
   this->k.streams = true;
   this->run();
   EXPECT_EQ(this->W, W);
@@ -109,10 +130,12 @@ TYPED_TEST(StressPart, FastestIsTheLargestSpeedOverLength) {
   double expected = 0;
   for (int n = 0; n < nodes; ++n) {
     const MaterialState s = row_state<TypeParam>(random);
-    this->set(n, s), this->length[n] = uniform(random, 0.1, 2);
+    this->set(n, s);
+    this->length[n] = uniform(random, 0.1, 2);
     const Stress<double> stress = TypeParam::stress(s, this->k.material);
     double c = std::sqrt(stress.rho_c2 / this->k.material.rho);
-    if (TypeParam::evolves_J && TypeParam::finite_strain) c = std::max(c, stress.d2U * std::sqrt(stress.H2) / this->k.rho_cp);
+    if (TypeParam::evolves_J && TypeParam::finite_strain)
+      c = std::max(c, stress.d2U * std::sqrt(stress.H2) / this->k.rho_cp);
     expected = std::max(expected, c / this->length[n]);
   }
   EXPECT_NEAR(this->run().fastest, expected, 1e-14 * expected);
@@ -120,10 +143,12 @@ TYPED_TEST(StressPart, FastestIsTheLargestSpeedOverLength) {
 
 TYPED_TEST(StressPart, StepBoundOfPaperUpwindingGrowsWithTheSquareOfTheArea) {
   const double a = 2;
-  const MaterialState s{sum(Tensor<double>{}, identity<double>(), a), sum(Tensor<double>{}, identity<double>(), a * a), a * a * a};
+  const MaterialState s{sum(Tensor<double>{}, identity<double>(), a), sum(Tensor<double>{}, identity<double>(), a * a),
+                        a * a * a};
   this->set(5, s);
   const Stress<double> stress = TypeParam::stress(s, this->k.material);
-  const double acoustic = std::sqrt(stress.rho_c2 / this->k.material.rho), of_J = stress.d2U * a * a * a * a / this->k.rho_cp;
+  const double acoustic = std::sqrt(stress.rho_c2 / this->k.material.rho),
+               of_J = stress.d2U * a * a * a * a / this->k.rho_cp;
   this->k.deformed_metric = false;
   const bool stabilised = TypeParam::evolves_J && TypeParam::finite_strain;
   EXPECT_GT(stabilised ? of_J : 1.06 * acoustic, 1.05 * acoustic);
@@ -140,12 +165,9 @@ TYPED_TEST(StressPart, SoundNodesAreNotFlagged) {
 
 TYPED_TEST(StressPart, AnUnsoundNodeIsFlaggedInEveryLane) {
   std::vector<std::pair<const char*, std::function<void(double*)>>> damages = {
-      {"det F = 0", [](double* U) { U[4] = 0; }},
-      {"det F < 0", [](double* U) { U[4] = -1; }},
-      {"v inf", [](double* U) { U[0] = infinity; }},
-      {"v -inf", [](double* U) { U[1] = -infinity; }},
-      {"v NaN", [](double* U) { U[2] = NaN; }},
-      {"v too large to square", [](double* U) { U[2] = 1e200; }},
+      {"det F = 0", [](double* U) { U[4] = 0; }},    {"det F < 0", [](double* U) { U[4] = -1; }},
+      {"v inf", [](double* U) { U[0] = infinity; }}, {"v -inf", [](double* U) { U[1] = -infinity; }},
+      {"v NaN", [](double* U) { U[2] = NaN; }},      {"v too large to square", [](double* U) { U[2] = 1e200; }},
   };
   for (int m = 0; m < 9; ++m) damages.push_back({"F NaN", [m](double* U) { U[4 * (m / 3 + 1) + m % 3] = NaN; }});
   if (TypeParam::evolves_J) {
@@ -177,7 +199,8 @@ TYPED_TEST(StressPart, StrainEnergyIsTheSumOfEnergyTimesVolume) {
   for (int n = 0; n < nodes; ++n) {
     const MaterialState s = row_state<TypeParam>(random);
     const double volume = uniform(random, 0.5, 2);
-    this->set(n, s), this->X[row::X * n + 3] = 1 / volume;
+    this->set(n, s);
+    this->X[row::X * n + 3] = 1 / volume;
     expected += volume * TypeParam::energy(s, this->k.material);
   }
   Part part{};
@@ -190,14 +213,19 @@ TEST(Registry, BuildsTheMaterialsThatAreTestedAndNoOthers) {
   for (const Law law : {Law::linear_elastic, Law::neo_hookean, Law::mooney_rivlin, Law::hencky_j2})
     for (const Volumetric volumetric : {Volumetric::quadratic, Volumetric::barrier})
       for (const Isochoric isochoric : {Isochoric::F, Isochoric::J})
-        for (const auto& [formulation, parting] : {std::pair(Formulation::pF, 0.0), std::pair(Formulation::pFJ, 0.0), std::pair(Formulation::pFHJ, 0.0), std::pair(Formulation::pF, 1.0),
-                                                  std::pair(Formulation::pFJ, 1.0), std::pair(Formulation::pFHJ, 1.0), std::pair(Formulation::pFp, 1.0)}) {
+        for (const auto& [formulation, parting] :
+             {std::pair(Formulation::pF, 0.0), std::pair(Formulation::pFJ, 0.0), std::pair(Formulation::pFHJ, 0.0),
+              std::pair(Formulation::pF, 1.0), std::pair(Formulation::pFJ, 1.0), std::pair(Formulation::pFHJ, 1.0),
+              std::pair(Formulation::pFp, 1.0)}) {
           PhysicsSpec physics;
-          physics.formulation = formulation, physics.parting = parting;
+          physics.formulation = formulation;
+          physics.parting = parting;
           const bool own_energy = law == Law::linear_elastic || law == Law::hencky_j2;
-          const bool senseless = (own_energy && (volumetric == Volumetric::barrier || isochoric == Isochoric::J)) ||
-                                 (formulation == Formulation::pF && isochoric == Isochoric::J) ||
-                                 (parting > 0 && (!evolves_J(formulation) || law == Law::linear_elastic || volumetric == Volumetric::barrier || isochoric == Isochoric::J));
+          const bool senseless = (own_energy && (volumetric == Volumetric::barrier || isochoric == Isochoric::J))
+                                 || (formulation == Formulation::pF && isochoric == Isochoric::J)
+                                 || (parting > 0
+                                     && (!evolves_J(formulation) || law == Law::linear_elastic
+                                         || volumetric == Volumetric::barrier || isochoric == Isochoric::J));
           const auto find = [&] { return find_part_functions(physics, material_spec(law, volumetric, isochoric)); };
           if (senseless) {
             EXPECT_THROW(find(), std::invalid_argument);
@@ -206,13 +234,17 @@ TEST(Registry, BuildsTheMaterialsThatAreTestedAndNoOthers) {
             ++built;
           }
         }
-  const int with_own_tests = 5;  // hencky_j2 (test_hencky_j2.cpp, test_plastic_part.cpp) in three formulations, in two with an energy of the parting
-  EXPECT_EQ(built, with_own_tests + std::tuple_size_v<decltype([]<class... T>(::testing::Types<T...>) { return std::tuple<T...>{}; }(AllMaterials{}))>);
+  const int with_own_tests =
+      5;  // hencky_j2 (test_hencky_j2.cpp, test_plastic_part.cpp) in three formulations, in two with an energy of the parting
+  EXPECT_EQ(built, with_own_tests + std::tuple_size_v<decltype([]<class... T>(::testing::Types<T...>) {
+                     return std::tuple<T...>{};
+                   }(AllMaterials{}))>);
 }
 
 TEST(Padding, IsNeverFlaggedAndNeverSetsTheStep) {
   MeshSpec box;
-  box.size = {1, 1, 1}, box.cells = {2, 2, 2};
+  box.size = {1, 1, 1};
+  box.cells = {2, 2, 2};
   std::vector<std::string> errors;
   const Mesh mesh = finish_mesh(make_box(box), errors);
   ASSERT_TRUE(errors.empty());
@@ -227,7 +259,9 @@ TEST(Padding, IsNeverFlaggedAndNeverSetsTheStep) {
     advance(s);
     ASSERT_FALSE(s.reports[0].broken);
   }
-  EXPECT_NEAR(s.reports[0].fastest, fastest, 1e-6 * fastest);  // free fall; round-off in F enters the bound by its square root
+  EXPECT_NEAR(s.reports[0].fastest, fastest,
+              1e-6 * fastest);  // free fall; round-off in F enters the bound by its square root
   for (int n = 27; n < 32; ++n)
-    for (int m = 0; m < 9; ++m) EXPECT_EQ(s.state.U[0][row::U * n + 4 * (m / 3 + 1) + m % 3], m % 4 == 0) << "F of row " << n;
+    for (int m = 0; m < 9; ++m)
+      EXPECT_EQ(s.state.U[0][row::U * n + 4 * (m / 3 + 1) + m % 3], m % 4 == 0) << "F of row " << n;
 }

@@ -19,7 +19,8 @@ Study two_by_three() {
   Study s;
   s.scene = "cube.toml";
   s.set = {{"time.end", "0.1", ""}};
-  s.vary = {axis("physics.formulation", {"\"pF\"", "\"pFJ\""}), axis("mesh.cells", {"[2, 2, 2]", "[4, 4, 4]", "[8, 8, 8]"})};
+  s.vary = {axis("physics.formulation", {"\"pF\"", "\"pFJ\""}),
+            axis("mesh.cells", {"[2, 2, 2]", "[4, 4, 4]", "[8, 8, 8]"})};
   return s;
 }
 
@@ -30,10 +31,12 @@ std::vector<std::string> labels(const Study& s) {
 }
 
 TEST(StudyPlan, EveryCombinationIsARunAndTheFirstKeyChangesSlowest) {
-  EXPECT_EQ(labels(two_by_three()),
-            (std::vector<std::string>{"physics.formulation = pF, mesh.cells = [2, 2, 2]", "physics.formulation = pF, mesh.cells = [4, 4, 4]",
-                                      "physics.formulation = pF, mesh.cells = [8, 8, 8]", "physics.formulation = pFJ, mesh.cells = [2, 2, 2]",
-                                      "physics.formulation = pFJ, mesh.cells = [4, 4, 4]", "physics.formulation = pFJ, mesh.cells = [8, 8, 8]"}));
+  EXPECT_EQ(
+      labels(two_by_three()),
+      (std::vector<std::string>{
+          "physics.formulation = pF, mesh.cells = [2, 2, 2]", "physics.formulation = pF, mesh.cells = [4, 4, 4]",
+          "physics.formulation = pF, mesh.cells = [8, 8, 8]", "physics.formulation = pFJ, mesh.cells = [2, 2, 2]",
+          "physics.formulation = pFJ, mesh.cells = [4, 4, 4]", "physics.formulation = pFJ, mesh.cells = [8, 8, 8]"}));
 }
 
 TEST(StudyPlan, VariedValuesComeAfterTheCaseAndTheCommonOnes) {
@@ -43,7 +46,8 @@ TEST(StudyPlan, VariedValuesComeAfterTheCaseAndTheCommonOnes) {
   ASSERT_EQ(runs.size(), 12u);
   std::vector<std::string> keys;
   for (const StudySetting& x : runs[0].settings) keys.push_back(x.key + "=" + x.value);
-  EXPECT_EQ(keys, (std::vector<std::string>{"time.end=0.1", "time.end=0.2", "physics.formulation=\"pF\"", "mesh.cells=[2, 2, 2]"}));
+  EXPECT_EQ(keys, (std::vector<std::string>{"time.end=0.1", "time.end=0.2", "physics.formulation=\"pF\"",
+                                            "mesh.cells=[2, 2, 2]"}));
   EXPECT_EQ(runs[0].scene, "cube.toml");
   EXPECT_EQ(runs[6].scene, "other.toml");
   EXPECT_EQ(runs[6].label, "hard, physics.formulation = pF, mesh.cells = [2, 2, 2]");

@@ -11,10 +11,13 @@ namespace {
 
 Study map_study() {
   Study s;
-  s.name = "map", s.kind = StudyKind::stability;
+  s.name = "map";
+  s.kind = StudyKind::stability;
   s.vary = {{"physics.formulation", {{"physics.formulation", "\"pF\"", ""}, {"physics.formulation", "\"pFJ\"", ""}}},
             {"time.cfl", {{"time.cfl", "0.3", ""}, {"time.cfl", "0.9", ""}}}};
-  s.report.x = "time.cfl", s.report.y = {"errors.p1_L2"}, s.report.title = "<Map> & \"more\"";
+  s.report.x = "time.cfl";
+  s.report.y = {"errors.p1_L2"};
+  s.report.title = "<Map> & \"more\"";
   return s;
 }
 
@@ -22,16 +25,23 @@ Study map_study() {
 StudyResults sample(const Study& s) {
   StudyResults all;
   all.study = &s;
-  all.folder = "results/map", all.command = "nanson study map.toml";
+  all.folder = "results/map";
+  all.command = "nanson study map.toml";
   for (PlannedRun& p : plan(s)) {
     StudyRun run;
-    run.plan = p, run.hash = text_hash(p.label), run.arguments = {"run", "a b.toml", "--set", "x='1'"};
+    run.plan = p;
+    run.hash = text_hash(p.label);
+    run.arguments = {"run", "a b.toml", "--set", "x='1'"};
     all.runs.push_back(run);
   }
   all.results.resize(4);
   for (std::size_t i = 0; i < 3; ++i) {
     RunOutcome o;
-    o.summary = RunSummary{{{"errors.p1_L2", 0.1 / (1.0 + static_cast<double>(i))}, {"volume", 1}, {"tets", 48}, {"cpu_s", 2}}, {{"status", i < 2 ? "done" : "breakdown"}, {"cause", i < 2 ? "" : "detF"}, {"reason", i < 2 ? "" : "J < 0, \"there\""}}};
+    o.summary = RunSummary{
+        {{"errors.p1_L2", 0.1 / (1.0 + static_cast<double>(i))}, {"volume", 1}, {"tets", 48}, {"cpu_s", 2}},
+        {{"status", i < 2 ? "done" : "breakdown"},
+         {"cause", i < 2 ? "" : "detF"},
+         {"reason", i < 2 ? "" : "J < 0, \"there\""}}};
     all.results[i] = assess(all.runs[i], o);
   }
   return all;
@@ -73,7 +83,8 @@ TEST(StudyPlots, AMapHasOneMarkARunAndASeriesAVerdict) {
 
 TEST(StudyPlots, ErrorsOfBrokenRunsAreNotDrawn) {
   Study s = map_study();
-  s.kind = StudyKind::sweep, s.report.lines = {"physics.formulation"};
+  s.kind = StudyKind::sweep;
+  s.report.lines = {"physics.formulation"};
   s.report.reference = {{"peer", {{"time.cfl", 0.5}, {"errors.p1_L2", 0.2}}}, {"elsewhere", {{"time.cfl", 0.5}}}};
   const auto plots = study_plots(sample(s));
   ASSERT_EQ(plots.size(), 1u);

@@ -40,8 +40,12 @@ TEST(SymmetricEigen, ComposesAgainWithOrthonormalAxes) {
   double composition = 0, orthogonality = 0;
   for (int k = 0; k < 30000; ++k) {
     const double scale = std::pow(10.0, 8 * uniform(random)), near = std::pow(10.0, -8 * std::abs(uniform(random)));
-    for (const auto& value : std::vector<std::array<double, 3>>{{uniform(random), uniform(random), uniform(random)}, {1, scale, scale * scale},
-                                                                 {1, 1 + near, 1 - near * uniform(random)}, {1, 1, 1 + near}, {2, 2, 2}, {1, 1, scale}}) {
+    for (const auto& value : std::vector<std::array<double, 3>>{{uniform(random), uniform(random), uniform(random)},
+                                                                {1, scale, scale * scale},
+                                                                {1, 1 + near, 1 - near * uniform(random)},
+                                                                {1, 1, 1 + near},
+                                                                {2, 2, 2},
+                                                                {1, 1, scale}}) {
       const double v[3] = {value[0], value[1], value[2]};
       const Symmetric<double> A = random_tensor(random, v);
       const Spectrum<double> S = symmetric_eigen(A);
@@ -49,7 +53,8 @@ TEST(SymmetricEigen, ComposesAgainWithOrthonormalAxes) {
       for (int m = 0; m < 6; ++m) composition = std::max(composition, std::abs(B.a[m] - A.a[m]) / largest(A));
       for (int p = 0; p < 3; ++p)
         for (int q = 0; q < 3; ++q)
-          orthogonality = std::max(orthogonality, std::abs(S.axis[p][0] * S.axis[q][0] + S.axis[p][1] * S.axis[q][1] + S.axis[p][2] * S.axis[q][2] - (p == q)));
+          orthogonality = std::max(orthogonality, std::abs(S.axis[p][0] * S.axis[q][0] + S.axis[p][1] * S.axis[q][1]
+                                                           + S.axis[p][2] * S.axis[q][2] - (p == q)));
     }
   }
   EXPECT_LT(composition, 1e-14);

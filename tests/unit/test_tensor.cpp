@@ -25,7 +25,9 @@ Tensor<double> cross_by_definition(const Tensor<double>& A, const Tensor<double>
   return R;
 }
 
-void expect_equal(const Tensor<double>& A, const Tensor<double>& B, double tolerance) { EXPECT_LE(largest_entry(sum(A, B, -1)), tolerance); }
+void expect_equal(const Tensor<double>& A, const Tensor<double>& B, double tolerance) {
+  EXPECT_LE(largest_entry(sum(A, B, -1)), tolerance);
+}
 
 }  // namespace
 
@@ -81,7 +83,10 @@ TEST(Tensor, DeterminantOfAProductIsTheProduct) {
 
 TEST(Tensor, ContractSumsTheProductsOfAllEntries) {
   Tensor<double> A, B;
-  for (int k = 0; k < 9; ++k) A.a[k / 3][k % 3] = k + 1, B.a[k / 3][k % 3] = std::pow(10, k);
+  for (int k = 0; k < 9; ++k) {
+    A.a[k / 3][k % 3] = k + 1;
+    B.a[k / 3][k % 3] = std::pow(10, k);
+  }
   EXPECT_EQ(contract(A, B), 987654321.0);
 }
 
@@ -90,8 +95,12 @@ TEST(Tensor, LanesHaveTheBitsOfTheScalar) {
   Tensor<double> A[8], B[8];
   Tensor<Vec8> A8, B8;
   for (int n = 0; n < 8; ++n) {
-    A[n] = random_tensor(random), B[n] = random_tensor(random);
-    for (int k = 0; k < 9; ++k) A8.a[k / 3][k % 3][n] = A[n].a[k / 3][k % 3], B8.a[k / 3][k % 3][n] = B[n].a[k / 3][k % 3];
+    A[n] = random_tensor(random);
+    B[n] = random_tensor(random);
+    for (int k = 0; k < 9; ++k) {
+      A8.a[k / 3][k % 3][n] = A[n].a[k / 3][k % 3];
+      B8.a[k / 3][k % 3][n] = B[n].a[k / 3][k % 3];
+    }
   }
   const Tensor<Vec8> H = cofactor(A8), AxB = cross(A8, B8);
   const Vec8 dot = contract(A8, B8), det = determinant(A8, H);

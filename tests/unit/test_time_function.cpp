@@ -54,7 +54,8 @@ TEST(TimeFunction, SineHasItsFrequencyInHertzAndItsPhaseInRadians) {
 
 TEST(TimeFunction, PulseIsOneFromItsStartUntilBeforeItsEnd) {
   TimeFunction f = of(TimeKind::pulse);
-  f.from = 1, f.until = 2;
+  f.from = 1;
+  f.until = 2;
   EXPECT_EQ(value_at(f, std::nextafter(1, 0)), 0);
   EXPECT_EQ(value_at(f, 1), 1);
   EXPECT_EQ(value_at(f, std::nextafter(2, 0)), 1);
@@ -63,7 +64,9 @@ TEST(TimeFunction, PulseIsOneFromItsStartUntilBeforeItsEnd) {
 
 TEST(TimeFunction, LogisticIsOneAtItsCentreAndItsFormulaAround) {
   TimeFunction f = of(TimeKind::logistic);
-  f.rate = 3, f.centre = 2, f.until = 100;
+  f.rate = 3;
+  f.centre = 2;
+  f.until = 100;
   EXPECT_EQ(value_at(f, 2), 1);
   for (const double t : {0.0, 0.5, 1.9, 2.1, 3.0, 5.0}) {
     const double g = std::exp(3 * (2 - t));
@@ -73,14 +76,19 @@ TEST(TimeFunction, LogisticIsOneAtItsCentreAndItsFormulaAround) {
 
 TEST(TimeFunction, LogisticIsSymmetricAboutItsCentre) {
   TimeFunction f = of(TimeKind::logistic);
-  f.rate = 7, f.centre = 2, f.until = 100;
+  f.rate = 7;
+  f.centre = 2;
+  f.until = 100;
   for (const double s : {0.125, 0.5, 1.0, 1.75}) EXPECT_EQ(value_at(f, 2 - s), value_at(f, 2 + s));
 }
 
 TEST(TimeFunction, LogisticNeverOverflows) {
   TimeFunction f = of(TimeKind::logistic);
-  f.rate = 1e6, f.centre = 1, f.until = 1e9;
-  for (const double t : {0.0, 0.999, 2.0, 1e9}) {  // g = exp(1e6) overflows at t = 0 where the formula is taken as it stands
+  f.rate = 1e6;
+  f.centre = 1;
+  f.until = 1e9;
+  for (const double t :
+       {0.0, 0.999, 2.0, 1e9}) {  // g = exp(1e6) overflows at t = 0 where the formula is taken as it stands
     EXPECT_GE(value_at(f, t), 0);
     EXPECT_LT(value_at(f, t), 1e-300);
   }
@@ -91,7 +99,9 @@ TEST(TimeFunction, LogisticNeverOverflows) {
 
 TEST(TimeFunction, LogisticEndsAfterItsLastTime) {
   TimeFunction f = of(TimeKind::logistic);
-  f.rate = 1, f.centre = 2, f.until = 2;
+  f.rate = 1;
+  f.centre = 2;
+  f.until = 2;
   EXPECT_EQ(value_at(f, 2), 1);
   EXPECT_EQ(value_at(f, std::nextafter(2, 3)), 0);
 }

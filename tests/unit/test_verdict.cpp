@@ -13,7 +13,8 @@ constexpr VerdictRules rules{1e-6, 0.3, 10, false};
 /// A sound run of three rows whose energy falls.
 RunOutcome sound_run() {
   RunOutcome r;
-  r.summary = RunSummary{{{"checkerboard", 0.1}, {"energy.initial", 10}}, {{"status", "done"}, {"reason", ""}, {"cause", ""}}};
+  r.summary = RunSummary{{{"checkerboard", 0.1}, {"energy.initial", 10}},
+                         {{"status", "done"}, {"reason", ""}, {"cause", ""}}};
   r.history = {{0, 1, 2}, {10, 5, 4}, {0, 5, 5}, {}, {}, {1, 0.9, 0.95}, {1, 0.9, 0.95}, {1, 0.8, 0.9}};
   return r;
 }
@@ -89,9 +90,12 @@ TEST(Verdict, CheckerboardIsJudgedWhereABoundIsSet) {
 }
 
 TEST(Verdict, ABreakdownHasItsCause) {
-  const std::pair<const char*, Verdict> table[] = {{"detF", Verdict::inverted},           {"J", Verdict::inverted},
-                                                   {"not_finite", Verdict::not_finite},   {"dt_collapse", Verdict::dt_collapse},
-                                                   {"energy_growth", Verdict::energy_grew}, {"iteration_limit", Verdict::iteration_limit}};
+  const std::pair<const char*, Verdict> table[] = {{"detF", Verdict::inverted},
+                                                   {"J", Verdict::inverted},
+                                                   {"not_finite", Verdict::not_finite},
+                                                   {"dt_collapse", Verdict::dt_collapse},
+                                                   {"energy_growth", Verdict::energy_grew},
+                                                   {"iteration_limit", Verdict::iteration_limit}};
   for (const auto& [cause, verdict] : table) {
     const Judgement j = judge(broken(cause, "why"), rules);
     EXPECT_EQ(j.verdict, verdict) << cause;
@@ -124,7 +128,8 @@ TEST(Verdict, AProgramThatDiedIsAResult) {
   r.exit_code = 139;
   EXPECT_EQ(judge(r, rules).verdict, Verdict::failed);
   EXPECT_EQ(judge(r, rules).reason, "the program was ended by signal 11 without a summary");
-  r.exit_code = 1, r.last_words = "no memory";
+  r.exit_code = 1;
+  r.last_words = "no memory";
   EXPECT_EQ(judge(r, rules).reason, "the program ended with exit code 1 without a summary: no memory");
 }
 

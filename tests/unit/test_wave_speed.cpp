@@ -13,8 +13,8 @@ namespace {
 
 template <Law law, Volumetric v>
 using Hyperelastic = pF<law, v, Isochoric::F>;
-using Laws = ::testing::Types<Hyperelastic<neo_hookean, quadratic>, Hyperelastic<neo_hookean, barrier>, Hyperelastic<mooney_rivlin, quadratic>,
-                              Hyperelastic<mooney_rivlin, barrier>>;
+using Laws = ::testing::Types<Hyperelastic<neo_hookean, quadratic>, Hyperelastic<neo_hookean, barrier>,
+                              Hyperelastic<mooney_rivlin, quadratic>, Hyperelastic<mooney_rivlin, barrier>>;
 
 template <class Material_>
 struct WaveSpeed : ::testing::Test {
@@ -43,14 +43,19 @@ MaterialState of_F(const Tensor<double>& F) { return {F, F, 1.0}; }
 
 /// Q(N) along the motion, dH = F x dF and dJ = H:dF where they are evolved, by central differences of fourth order; `size`, the smallest stretch, sets their step.
 template <class Material_>
-Eigen::Matrix3d acoustic_tensor(const MaterialState& state, const Eigen::Vector3d& N, double size, const MaterialConstants& m) {
+Eigen::Matrix3d acoustic_tensor(const MaterialState& state, const Eigen::Vector3d& N, double size,
+                                const MaterialConstants& m) {
   Eigen::Matrix3d Q = Eigen::Matrix3d::Zero();
   const double h = 1e-3 * size;
   for (int j = 0; j < 3; ++j) {
     Tensor<double> A{};
     for (int I = 0; I < 3; ++I) A[j][I] = N[I];
     const Tensor<double> H = Material_::formulation == Formulation::pFHJ ? state.H : cofactor(state.F);
-    const auto P = [&](double s) { return Material_::stress({sum(state.F, A, s), sum(state.H, cross(state.F, A), s), state.J + s * contract(H, A)}, m).P; };
+    const auto P = [&](double s) {
+      return Material_::stress({sum(state.F, A, s), sum(state.H, cross(state.F, A), s), state.J + s * contract(H, A)},
+                               m)
+          .P;
+    };
     const Tensor<double> near = sum(P(h), P(-h), -1), far = sum(P(2 * h), P(-2 * h), -1);
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) Q(i, j) += (8 * near[i][I] - far[i][I]) * N[I] / (12 * h);
@@ -59,8 +64,11 @@ Eigen::Matrix3d acoustic_tensor(const MaterialState& state, const Eigen::Vector3
 }
 
 template <class Material_>
-double largest_eigenvalue(const MaterialState& state, const Eigen::Vector3d& N, double size, const MaterialConstants& m) {
-  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(acoustic_tensor<Material_>(state, N, size, m), Eigen::EigenvaluesOnly).eigenvalues()[2];
+double largest_eigenvalue(const MaterialState& state, const Eigen::Vector3d& N, double size,
+                          const MaterialConstants& m) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(acoustic_tensor<Material_>(state, N, size, m),
+                                                        Eigen::EigenvaluesOnly)
+      .eigenvalues()[2];
 }
 
 }  // namespace
@@ -71,16 +79,21 @@ TYPED_TEST(WaveSpeed, BoundHoldsForAnyStateAndDirection) {
   double tightest = 1e300, loosest = 0, mean = 0;
   for (int k = 0; k < 4000; ++k) {
     const Stretched s = stretched(random, 0.3, 3);
-    const double bound = TypeParam::stress({s.F, s.F, 1.0}, this->m).rho_c2, size = std::min({s.stretch[0], s.stretch[1], s.stretch[2]});
+    const double bound = TypeParam::stress({s.F, s.F, 1.0}, this->m).rho_c2,
+                 size = std::min({s.stretch[0], s.stretch[1], s.stretch[2]});
     double largest = 0;
     for (int d = 0; d < 8; ++d) {  // the principal directions, then any
       const Eigen::Vector3d N = row_of(d < 3 ? s.axes : random_rotation(random), d < 3 ? d : 0);
       largest = std::max(largest, largest_eigenvalue<TypeParam>(of_F(s.F), N, size, this->m));
     }
-    ASSERT_LE(largest, bound * (1 + 1e-7)) << "state " << k << ", stretches " << s.stretch[0] << ", " << s.stretch[1] << ", " << s.stretch[2];
-    tightest = std::min(tightest, bound / largest), loosest = std::max(loosest, bound / largest), mean += bound / largest / 4000;
+    ASSERT_LE(largest, bound * (1 + 1e-7))
+        << "state " << k << ", stretches " << s.stretch[0] << ", " << s.stretch[1] << ", " << s.stretch[2];
+    tightest = std::min(tightest, bound / largest);
+    loosest = std::max(loosest, bound / largest);
+    mean += bound / largest / 4000;
   }
-  this->RecordProperty("tightest", std::to_string(tightest)), this->RecordProperty("mean", std::to_string(mean));
+  this->RecordProperty("tightest", std::to_string(tightest));
+  this->RecordProperty("mean", std::to_string(mean));
   this->RecordProperty("loosest", std::to_string(loosest));
   EXPECT_LT(mean, 1.2);
 }
@@ -89,7 +102,8 @@ TYPED_TEST(WaveSpeed, AcousticTensorAtRestHasTheUndeformedSpeeds) {
   Random random(2);
   for (int k = 0; k < 10; ++k) {
     const Eigen::Matrix3d Q = acoustic_tensor<TypeParam>(undeformed(), row_of(random_rotation(random), 0), 1, this->m);
-    const Eigen::Vector3d c2 = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Q, Eigen::EigenvaluesOnly).eigenvalues() / this->m.rho;
+    const Eigen::Vector3d c2 = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(Q, Eigen::EigenvaluesOnly).eigenvalues()
+                               / this->m.rho;
     for (int i = 0; i < 2; ++i) EXPECT_NEAR(c2[i], this->m.cs * this->m.cs, 1e-9 * c2[i]);
     EXPECT_NEAR(c2[2], this->m.cp * this->m.cp, 1e-9 * c2[2]);
   }
@@ -104,8 +118,12 @@ TYPED_TEST(WaveSpeed, BoundAtRestIsExactButForXi) {
 TEST(WaveSpeedOfMooneyRivlin, BoundAtRestIsAtMostFiveThirds) {
   for (const double kappa_over_mu : {2.0 / 3, 13.0 / 6, 299.0 / 3}) {
     MaterialConstants m;
-    m.rho = 1, m.mu = 7, m.kappa = kappa_over_mu * m.mu, m.xi = m.mu / (3 * std::sqrt(3.0));
-    const double ratio = Hyperelastic<mooney_rivlin, quadratic>::stress(undeformed(), m).rho_c2 / (m.kappa + 4.0 / 3 * m.mu);
+    m.rho = 1;
+    m.mu = 7;
+    m.kappa = kappa_over_mu * m.mu;
+    m.xi = m.mu / (3 * std::sqrt(3.0));
+    const double ratio = Hyperelastic<mooney_rivlin, quadratic>::stress(undeformed(), m).rho_c2
+                         / (m.kappa + 4.0 / 3 * m.mu);
     EXPECT_NEAR(ratio, 1 + 4.0 / 3 / (kappa_over_mu + 4.0 / 3), 1e-12);
     EXPECT_LE(ratio, 5.0 / 3 * (1 + 1e-12));
   }
@@ -135,16 +153,19 @@ TEST(SpectralBounds, HoldAndAreExactWhereTwoStretchesAreSmallerAndEqual) {
     EXPECT_LE(bounds.F2, FF);
     EXPECT_LE(bounds.H2, HH);
   }
-  const SpectralBounds<double> rod = spectral_bounds(9.0 + 1 + 1, 9.0 + 9 + 1, 3.0);  // stretches 3, 1, 1; areas 3, 3, 1
+  const SpectralBounds<double> rod = spectral_bounds(9.0 + 1 + 1, 9.0 + 9 + 1,
+                                                     3.0);  // stretches 3, 1, 1; areas 3, 3, 1
   EXPECT_NEAR(rod.F2, 9, 1e-12);
   EXPECT_NEAR(rod.H2, (19 + 16) / 3.0, 1e-12);  // not exact here: two areas are the larger ones
-  const SpectralBounds<double> plate = spectral_bounds(0.25 + 1 + 1, 0.25 + 0.25 + 1, 0.5);  // stretches 1/2, 1, 1; areas 1, 1/2, 1/2
+  const SpectralBounds<double> plate = spectral_bounds(0.25 + 1 + 1, 0.25 + 0.25 + 1,
+                                                       0.5);  // stretches 1/2, 1, 1; areas 1, 1/2, 1/2
   EXPECT_NEAR(plate.H2, 1, 1e-12);
 }
 
 template <class Material_>
 struct WaveSpeedOfParting : WaveSpeed<Material_> {};
-using PartedLaws = ::testing::Types<Parted<neo_hookean, Formulation::pFJ>, Parted<neo_hookean, Formulation::pFHJ>, Parted<mooney_rivlin, Formulation::pFJ>, Parted<mooney_rivlin, Formulation::pFHJ>>;
+using PartedLaws = ::testing::Types<Parted<neo_hookean, Formulation::pFJ>, Parted<neo_hookean, Formulation::pFHJ>,
+                                    Parted<mooney_rivlin, Formulation::pFJ>, Parted<mooney_rivlin, Formulation::pFHJ>>;
 TYPED_TEST_SUITE(WaveSpeedOfParting, PartedLaws, MaterialName);
 
 // det F/J in [0.3, 3]. Without the energy's share the bound fails in some of these states, with it in none.
@@ -156,17 +177,23 @@ TYPED_TEST(WaveSpeedOfParting, BoundHoldsHoweverFarDetFIsFromJ) {
     const Stretched s = stretched(random, 0.3, 3);
     MaterialState state{s.F, cofactor(s.F), 0};
     state.J = determinant(s.F, state.H) / std::exp(uniform(random, std::log(0.3), std::log(3)));
-    const double bound = TypeParam::stress(state, this->m).rho_c2, size = std::min({s.stretch[0], s.stretch[1], s.stretch[2]});
+    const double bound = TypeParam::stress(state, this->m).rho_c2,
+                 size = std::min({s.stretch[0], s.stretch[1], s.stretch[2]});
     const double without = TypeParam::Law_::stress(state.F, state.H, state.J, this->m).rho_c2;
     double largest = 0;
     for (int d = 0; d < 8; ++d) {  // the principal directions, then any
       const Eigen::Vector3d N = row_of(d < 3 ? s.axes : random_rotation(random), d < 3 ? d : 0);
       largest = std::max(largest, largest_eigenvalue<TypeParam>(state, N, size, this->m));
     }
-    ASSERT_LE(largest, bound * (1 + 1e-7)) << "state " << k << ", stretches " << s.stretch[0] << ", " << s.stretch[1] << ", " << s.stretch[2] << ", J " << state.J;
-    mean += bound / largest / 4000, loosest = std::max(loosest, bound / largest), needed += without < largest * (1 - 1e-6);
+    ASSERT_LE(largest, bound * (1 + 1e-7)) << "state " << k << ", stretches " << s.stretch[0] << ", " << s.stretch[1]
+                                           << ", " << s.stretch[2] << ", J " << state.J;
+    mean += bound / largest / 4000;
+    loosest = std::max(loosest, bound / largest);
+    needed += without < largest * (1 - 1e-6);
   }
-  this->RecordProperty("mean", std::to_string(mean)), this->RecordProperty("loosest", std::to_string(loosest)), this->RecordProperty("needed", needed);
+  this->RecordProperty("mean", std::to_string(mean));
+  this->RecordProperty("loosest", std::to_string(loosest));
+  this->RecordProperty("needed", needed);
   EXPECT_LT(mean, 1.25);
   EXPECT_GT(needed, 100);
 }

@@ -38,7 +38,8 @@ void write_frames(FieldWriter& writer, const Mesh& mesh, int count, bool last_is
   }
 }
 
-void expect_frames(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FieldName>& names, std::size_t count) {
+void expect_frames(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FieldName>& names,
+                   std::size_t count) {
   const auto file = test::open_to_read(path);
   ASSERT_EQ(test::frame_count(file), count);
   for (const auto& field : names) {
@@ -73,7 +74,8 @@ TEST(WriteFields, TheMeshReadsBack) {
   EXPECT_EQ(read<int64_t>(file, "/VTKHDF/NumberOfCells"), std::vector{m});
   EXPECT_EQ(read<int64_t>(file, "/VTKHDF/NumberOfConnectivityIds"), std::vector{4 * m});
   const auto points = read<double>(file, "/VTKHDF/Points");
-  const auto connectivity = read<int64_t>(file, "/VTKHDF/Connectivity"), offsets = read<int64_t>(file, "/VTKHDF/Offsets");
+  const auto connectivity = read<int64_t>(file, "/VTKHDF/Connectivity"),
+             offsets = read<int64_t>(file, "/VTKHDF/Offsets");
   for (std::size_t a = 0; a < mesh.X.size(); ++a)
     for (std::size_t d = 0; d < 3; ++d) EXPECT_EQ(points[3 * a + d], mesh.X[a][d]);
   for (std::size_t e = 0; e < mesh.tets.size(); ++e)
@@ -107,7 +109,8 @@ TEST(WriteFields, StepsSayWhereEachFrameBegins) {
   EXPECT_EQ(read<double>(file, "/VTKHDF/Steps/Values"), (std::vector{0.0, 0.5, 1.0}));
   for (const char* name : {"PointDataOffsets/velocity", "PointDataOffsets/J"})
     EXPECT_EQ(read<int64_t>(file, fmt::format("/VTKHDF/Steps/{}", name)), (std::vector<int64_t>{0, 8, 16})) << name;
-  for (const char* name : {"PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets", "CellDataOffsets/region"})
+  for (const char* name :
+       {"PartOffsets", "PointOffsets", "CellOffsets", "ConnectivityIdOffsets", "CellDataOffsets/region"})
     EXPECT_EQ(read<int64_t>(file, fmt::format("/VTKHDF/Steps/{}", name)), std::vector<int64_t>(3, 0)) << name;
   EXPECT_EQ(read<int64_t>(file, "/VTKHDF/Steps/NumberOfParts"), std::vector<int64_t>(3, 1));
   Dims dims;
@@ -135,8 +138,10 @@ TEST(WriteFields, TheSidecarHasATimeForEveryFrame) {
   FieldWriter writer(folder.path(), mesh, fields({"displacement", "F"}), {}, 0);
   write_frames(writer, mesh, 3);
   const std::string xdmf = test::read_text(folder / "run.xdmf");
-  for (const char* text : {R"(<Time Value="0"/>)", R"(<Time Value="0.5"/>)", R"(<Time Value="1"/>)", "run.vtkhdf:/frames/000002/displacement",
-                           R"(<Attribute Name="F" AttributeType="Tensor" Center="Node"><DataItem Dimensions="12 9")", "</Grid></Domain></Xdmf>"})
+  for (const char* text : {R"(<Time Value="0"/>)", R"(<Time Value="0.5"/>)", R"(<Time Value="1"/>)",
+                           "run.vtkhdf:/frames/000002/displacement",
+                           R"(<Attribute Name="F" AttributeType="Tensor" Center="Node"><DataItem Dimensions="12 9")",
+                           "</Grid></Domain></Xdmf>"})
     EXPECT_NE(xdmf.find(text), std::string::npos) << text;
   EXPECT_FALSE(std::filesystem::exists(folder / "run.xdmf.tmp"));
 }
@@ -250,7 +255,8 @@ TEST(WriteFields, AFieldOfTheWrongLengthIsRefused) {
   const Mesh mesh = beam(1, 1, 1);
   FieldWriter writer(folder.path(), mesh, fields({"J"}), {}, 0);
   const std::vector<float> short_field(7);
-  EXPECT_THROW(writer.frame(0, 0, false, [&](const FieldName&) { return std::span<const float>(short_field); }), std::logic_error);
+  EXPECT_THROW(writer.frame(0, 0, false, [&](const FieldName&) { return std::span<const float>(short_field); }),
+               std::logic_error);
   write_frames(writer, mesh, 1);
   expect_frames(folder / "run.vtkhdf", mesh, fields({"J"}), 1);
 }

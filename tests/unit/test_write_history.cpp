@@ -33,7 +33,8 @@ TEST(WriteHistory, HeaderAndRows) {
 
 TEST(WriteHistory, NumbersReadBackToTheLastBit) {
   const test::TemporaryFolder folder;
-  const std::vector<double> values{1.0 / 3, -0.1, 6.02214076e23, 5e-324, std::numeric_limits<double>::max(), std::nextafter(1.0, 2.0), -0.0};
+  const std::vector<double> values{
+      1.0 / 3, -0.1, 6.02214076e23, 5e-324, std::numeric_limits<double>::max(), std::nextafter(1.0, 2.0), -0.0};
   HistoryWriter history(folder / "history.csv", std::vector<HistoryColumn>(values.size(), {"x", "-"}));
   history.row(values);
   std::istringstream file(test::read_text(folder / "history.csv"));
@@ -100,11 +101,15 @@ TEST(WriteHistory, ARowThatDoesNotFitLeavesNoHalfRow) {
 TEST(WriteHistory, AFolderThatIsMissingOrVanishesIsReported) {
   const test::TemporaryFolder folder;
   const auto path = folder / "run" / "history.csv";
-  EXPECT_EQ(message_of([&] { HistoryWriter(path, {{"t", "s"}}); }), path.string() + ": could not be created: No such file or directory");
+  EXPECT_EQ(message_of([&] {
+              HistoryWriter(path, {{"t", "s"}});
+            }),
+            path.string() + ": could not be created: No such file or directory");
   std::filesystem::create_directory(folder / "run");
   HistoryWriter history(path, {{"t", "s"}});
   std::filesystem::remove_all(folder / "run");
-  EXPECT_EQ(message_of([&] { history.row(std::array{0.0}); }), path.string() + ": a row could not be written: No such file or directory");
+  EXPECT_EQ(message_of([&] { history.row(std::array{0.0}); }),
+            path.string() + ": a row could not be written: No such file or directory");
 }
 
 }  // namespace

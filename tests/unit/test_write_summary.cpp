@@ -15,12 +15,70 @@ bool contains(const std::string& text, const std::string& part) { return text.fi
 
 TEST(WriteSummary, HasAllKeys) {
   const std::string json = summary_json({}, from);
-  for (const char* key :
-       {"status", "reason", "cause", "scene", "formulation", "material", "description", "stabilisation", "reconstruction", "flux_correction", "boundary_flux",
-        "upwind_metric", "pressure_jump", "parting", "integrator", "step", "split", "nodes", "tets", "edges", "steps", "t_end", "dt_min", "dt_max", "threads", "wall_s",
-        "cpu_s", "setup_s", "ns_per_node_step", "bytes_per_node", "peak_bytes", "peak_bytes_per_node", "fields_left_out", "state_hash", "energy", "initial", "kinetic", "strain", "external_work",
-        "dissipated", "angular_momentum_work", "closure", "lost_at_start", "mass", "volume", "keep_angular_momentum", "angular_momentum_drift", "linear_momentum_drift", "min_detF", "max_detF", "errors",
-        "probes", "setup", "sweeps", "checkerboard", "projection", "throughput", "provenance", "version", "commit", "compiler", "flags", "cpu", "host"})
+  for (const char* key : {"status",
+                          "reason",
+                          "cause",
+                          "scene",
+                          "formulation",
+                          "material",
+                          "description",
+                          "stabilisation",
+                          "reconstruction",
+                          "flux_correction",
+                          "boundary_flux",
+                          "upwind_metric",
+                          "pressure_jump",
+                          "parting",
+                          "integrator",
+                          "step",
+                          "split",
+                          "nodes",
+                          "tets",
+                          "edges",
+                          "steps",
+                          "t_end",
+                          "dt_min",
+                          "dt_max",
+                          "threads",
+                          "wall_s",
+                          "cpu_s",
+                          "setup_s",
+                          "ns_per_node_step",
+                          "bytes_per_node",
+                          "peak_bytes",
+                          "peak_bytes_per_node",
+                          "fields_left_out",
+                          "state_hash",
+                          "energy",
+                          "initial",
+                          "kinetic",
+                          "strain",
+                          "external_work",
+                          "dissipated",
+                          "angular_momentum_work",
+                          "closure",
+                          "lost_at_start",
+                          "mass",
+                          "volume",
+                          "keep_angular_momentum",
+                          "angular_momentum_drift",
+                          "linear_momentum_drift",
+                          "min_detF",
+                          "max_detF",
+                          "errors",
+                          "probes",
+                          "setup",
+                          "sweeps",
+                          "checkerboard",
+                          "projection",
+                          "throughput",
+                          "provenance",
+                          "version",
+                          "commit",
+                          "compiler",
+                          "flags",
+                          "cpu",
+                          "host"})
     EXPECT_TRUE(contains(json, '"' + std::string(key) + "\" : ")) << key;
 }
 
@@ -32,8 +90,8 @@ TEST(WriteSummary, MissingAndNonFiniteNumbersAreNull) {
   summary.errors["p1_L2"] = std::numeric_limits<double>::infinity();
   summary.probes["tip"]["v"] = {1.0, std::numeric_limits<double>::quiet_NaN()};
   const std::string json = summary_json(summary, from);
-  for (const char* text : {"\"external_work\" : null", "\"closure\" : 0.25", "\"min_detF\" : null", "\"max_detF\" : null",
-                           "\"p1_L2\" : null", "null\n"})
+  for (const char* text : {"\"external_work\" : null", "\"closure\" : 0.25", "\"min_detF\" : null",
+                           "\"max_detF\" : null", "\"p1_L2\" : null", "null\n"})
     EXPECT_TRUE(contains(json, text)) << text << json;
   EXPECT_FALSE(contains(json, "NaN"));
   EXPECT_FALSE(contains(json, "Infinity"));
@@ -42,7 +100,8 @@ TEST(WriteSummary, MissingAndNonFiniteNumbersAreNull) {
 TEST(WriteSummary, ThePeakIsSharedOutOverTheNodes) {
   Summary summary;
   EXPECT_TRUE(contains(summary_json(summary, from), "\"peak_bytes_per_node\" : null"));
-  summary.nodes = 1000, summary.peak_bytes = 1.5e6;
+  summary.nodes = 1000;
+  summary.peak_bytes = 1.5e6;
   EXPECT_TRUE(contains(summary_json(summary, from), "\"peak_bytes_per_node\" : 1500"));
 }
 
@@ -80,7 +139,8 @@ TEST(WriteSummary, AFolderThatIsMissingIsReported) {
     write_summary(folder / "none" / "summary.json", {}, from);
     FAIL() << "no exception";
   } catch (const std::runtime_error& error) {
-    EXPECT_EQ(std::string(error.what()), (folder / "none").string() + "/summary.json: could not be written: No such file or directory");
+    EXPECT_EQ(std::string(error.what()),
+              (folder / "none").string() + "/summary.json: could not be written: No such file or directory");
   }
 }
 
