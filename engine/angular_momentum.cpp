@@ -75,15 +75,7 @@ double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients
   const Eigen::Vector3d S = Eigen::Vector3d(m[1], m[2], m[3]) / m[0],
                         torque(m[10] - outside[0], m[11] - outside[1], m[12] - outside[2]);
   Eigen::Matrix3d M;
-  M << m[4];
-  m[7];
-  m[8];
-  m[7];
-  m[5];
-  m[9];
-  m[8];
-  m[9];
-  m[6];
+  M << m[4], m[7], m[8], m[7], m[5], m[9], m[8], m[9], m[6];
   M -= m[0] * S * S.transpose();
   const Eigen::Matrix3d inertia = M.trace() * Eigen::Matrix3d::Identity() - M;
   const Eigen::Vector3d l = inertia.ldlt().solve(-torque);

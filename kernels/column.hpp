@@ -8,27 +8,62 @@
 #include <immintrin.h>
 #endif
 
+#include "kernels/pair.hpp"
+
 #define NANSON_INLINE [[gnu::always_inline]] inline
 
 namespace nanson {
 
-typedef double Vec4 __attribute__((vector_size(32)));
+#if defined(__AVX512F__)
 typedef double Vec8 __attribute__((vector_size(64)));
-typedef long long Mask4 __attribute__((vector_size(32)));
 typedef long long Mask8 __attribute__((vector_size(64)));
 typedef unsigned long long Bits8 __attribute__((vector_size(64)));
+#else
+using Vec8 = Pair<Vec4, double>;
+using Mask8 = Pair<Mask4, long long>;
+using Bits8 = Pair<Bits4, unsigned long long>;
+#endif
 
 NANSON_INLINE Vec4 broadcast4(double x) { return Vec4{x, x, x, x}; }
 NANSON_INLINE Vec8 broadcast8(double x) { return Vec8{x, x, x, x, x, x, x, x}; }
 
+#if defined(__AVX512F__)
 NANSON_INLINE Vec4 low(Vec8 v) { return __builtin_shufflevector(v, v, 0, 1, 2, 3); }
 NANSON_INLINE Vec4 high(Vec8 v) { return __builtin_shufflevector(v, v, 4, 5, 6, 7); }
+#else
+NANSON_INLINE Vec4 low(Vec8 v) { return v.low; }
+NANSON_INLINE Vec4 high(Vec8 v) { return v.high; }
+#endif
 NANSON_INLINE Vec8 concat(Vec4 a, Vec4 b) {
 #if defined(__AVX512F__)
   return _mm512_maskz_insertf64x4(0xff, _mm512_castpd256_pd512(a), b,
                                   1);  // the shuffle below takes two moves more with GCC 12
 #else
-  return __builtin_shufflevector(a, b, 0, 1, 2, 3, 4, 5, 6, 7);
+  return Vec8(a, b);
+#endif
+}
+
+/// Per half of eight lanes, four lanes chosen from those of a's half (0 to 3) and of b's (4 to 7).
+template <int i, int j, int k, int l>
+NANSON_INLINE Vec8 shuffle_halves(Vec8 a, Vec8 b) {
+#if defined(__AVX512F__)
+  constexpr auto at = [](int m, int half) { return (m < 4 ? m : m + 4) + 4 * half; };
+  return __builtin_shufflevector(a, b, at(i, 0), at(j, 0), at(k, 0), at(l, 0), at(i, 1), at(j, 1), at(k, 1), at(l, 1));
+#else
+  return Vec8(__builtin_shufflevector(a.low, b.low, i, j, k, l), __builtin_shufflevector(a.high, b.high, i, j, k, l));
+#endif
+}
+
+/// Eight lanes chosen from four.
+template <int... from>
+NANSON_INLINE Vec8 lanes_of(Vec4 v) {
+  static_assert(sizeof...(from) == 8);
+#if defined(__AVX512F__)
+  return __builtin_shufflevector(v, v, from...);
+#else
+  constexpr int at[] = {from...};
+  return Vec8(__builtin_shufflevector(v, v, at[0], at[1], at[2], at[3]),
+              __builtin_shufflevector(v, v, at[4], at[5], at[6], at[7]));
 #endif
 }
 
@@ -39,6 +74,7 @@ NANSON_INLINE Vec4 spread(Vec4 v) {  // lane i in all lanes
 
 NANSON_INLINE Vec4 load4(const double* p) { return *reinterpret_cast<const Vec4*>(p); }  // p 32-byte aligned
 NANSON_INLINE Vec8 load8(const double* p) { return *reinterpret_cast<const Vec8*>(p); }  // p 64-byte aligned
+#if defined(__AVX512F__)
 NANSON_INLINE Vec8 load8_anywhere(const double* p) {
   typedef double Loose8 __attribute__((vector_size(64), aligned(8)));
   return *reinterpret_cast<const Loose8*>(p);
@@ -47,6 +83,16 @@ NANSON_INLINE void store8_anywhere(double* p, Vec8 v) {
   typedef double Loose8 __attribute__((vector_size(64), aligned(8)));
   *reinterpret_cast<Loose8*>(p) = v;
 }
+#else
+typedef double Loose4 __attribute__((vector_size(32), aligned(8)));
+NANSON_INLINE Vec8 load8_anywhere(const double* p) {
+  return Vec8(*reinterpret_cast<const Loose4*>(p), *reinterpret_cast<const Loose4*>(p + 4));
+}
+NANSON_INLINE void store8_anywhere(double* p, Vec8 v) {
+  *reinterpret_cast<Loose4*>(p) = v.low;
+  *reinterpret_cast<Loose4*>(p + 4) = v.high;
+}
+#endif
 NANSON_INLINE void store4(double* p, Vec4 v) { *reinterpret_cast<Vec4*>(p) = v; }
 NANSON_INLINE void store8(double* p, Vec8 v) { *reinterpret_cast<Vec8*>(p) = v; }
 
@@ -107,8 +153,14 @@ NANSON_INLINE Vec8 root(Vec8 x) {
 
 /// Lanes where a < b, of eight numbers each.
 NANSON_INLINE Mask8 less8(const std::int32_t* a, const std::int32_t* b) {
+#if defined(__AVX512F__)
   typedef std::int32_t Int8 __attribute__((vector_size(32), aligned(4)));
   return __builtin_convertvector(*reinterpret_cast<const Int8*>(a) < *reinterpret_cast<const Int8*>(b), Mask8);
+#else
+  typedef std::int32_t Int4 __attribute__((vector_size(16), aligned(4)));
+  const auto of = [](const std::int32_t* p) { return *reinterpret_cast<const Int4*>(p); };
+  return Mask8(__builtin_convertvector(of(a) < of(b), Mask4), __builtin_convertvector(of(a + 4) < of(b + 4), Mask4));
+#endif
 }
 
 /// The first lanes of eight.
@@ -125,7 +177,13 @@ NANSON_INLINE double sum(Vec8 x) {
 /// a where the condition holds, else b. A comparison with NaN does not hold.
 NANSON_INLINE double choose(bool condition, double a, double b) { return condition ? a : b; }
 NANSON_INLINE Vec4 choose(Mask4 condition, Vec4 a, Vec4 b) { return condition ? a : b; }
+#if defined(__AVX512F__)
 NANSON_INLINE Vec8 choose(Mask8 condition, Vec8 a, Vec8 b) { return condition ? a : b; }
+#else
+NANSON_INLINE Vec8 choose(Mask8 condition, Vec8 a, Vec8 b) {
+  return Vec8(choose(condition.low, a.low, b.low), choose(condition.high, a.high, b.high));
+}
+#endif
 
 template <class Real>
 NANSON_INLINE Real larger(Real a, Real b) {
@@ -164,6 +222,7 @@ NANSON_INLINE double inverse_cbrt_guess(double x) {
   const auto third = static_cast<std::int32_t>(static_cast<double>(high_word) * (1.0 / 3.0));
   return std::bit_cast<double>(static_cast<std::uint64_t>(static_cast<std::uint32_t>(inverse_cbrt_word - third)) << 32);
 }
+#if defined(__AVX512F__)
 NANSON_INLINE Vec8 inverse_cbrt_guess(Vec8 x) {
   typedef std::int32_t Int8 __attribute__((vector_size(32)));
   const Mask8 bits = std::bit_cast<Mask8>(x);
@@ -171,6 +230,16 @@ NANSON_INLINE Vec8 inverse_cbrt_guess(Vec8 x) {
   const Int8 third = __builtin_convertvector(__builtin_convertvector(high_word, Vec8) * (1.0 / 3.0), Int8);
   return std::bit_cast<Vec8>(__builtin_convertvector(inverse_cbrt_word - third, Mask8) << 32);
 }
+#else
+NANSON_INLINE Vec4 inverse_cbrt_guess(Vec4 x) {
+  typedef std::int32_t Int4 __attribute__((vector_size(16)));
+  const Mask4 bits = std::bit_cast<Mask4>(x);
+  const Int4 high_word = __builtin_convertvector(bits >> 32, Int4);
+  const Int4 third = __builtin_convertvector(__builtin_convertvector(high_word, Vec4) * (1.0 / 3.0), Int4);
+  return std::bit_cast<Vec4>(__builtin_convertvector(inverse_cbrt_word - third, Mask4) << 32);
+}
+NANSON_INLINE Vec8 inverse_cbrt_guess(Vec8 x) { return Vec8(inverse_cbrt_guess(x.low), inverse_cbrt_guess(x.high)); }
+#endif
 
 /// x^(-1/3) for x > 0, about 1 ulp, without a quotient; NaN where x is not > 0, which callers report as a breakdown. Two steps with e = 1 - x y^3 of
 /// y (1 - e)^(-1/3) = y (1 + e/3 + 2 e^2/9 + 14 e^3/81 + ...): the error goes as its fourth power.
@@ -227,26 +296,20 @@ NANSON_INLINE void load_transposed(const double* p, std::ptrdiff_t stride, Vec8&
   const Vec8 z0 = concat(load4(p), load4(p + 4 * stride)), z1 = concat(load4(p + stride), load4(p + 5 * stride));
   const Vec8 z2 = concat(load4(p + 2 * stride), load4(p + 6 * stride)),
              z3 = concat(load4(p + 3 * stride), load4(p + 7 * stride));
-  const Vec8 t0 = __builtin_shufflevector(z0, z1, 0, 8, 2, 10, 4, 12, 6, 14),
-             t1 = __builtin_shufflevector(z0, z1, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vec8 t2 = __builtin_shufflevector(z2, z3, 0, 8, 2, 10, 4, 12, 6, 14),
-             t3 = __builtin_shufflevector(z2, z3, 1, 9, 3, 11, 5, 13, 7, 15);
-  c0 = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13);
-  c1 = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
-  c2 = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15);
-  c3 = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+  const Vec8 t0 = shuffle_halves<0, 4, 2, 6>(z0, z1), t1 = shuffle_halves<1, 5, 3, 7>(z0, z1);
+  const Vec8 t2 = shuffle_halves<0, 4, 2, 6>(z2, z3), t3 = shuffle_halves<1, 5, 3, 7>(z2, z3);
+  c0 = shuffle_halves<0, 1, 4, 5>(t0, t2);
+  c1 = shuffle_halves<0, 1, 4, 5>(t1, t3);
+  c2 = shuffle_halves<2, 3, 6, 7>(t0, t2);
+  c3 = shuffle_halves<2, 3, 6, 7>(t1, t3);
 }
 
 /// Eight rows {c0, c1, c2, c3} from lanes.
 NANSON_INLINE void rows_of(Vec8 c0, Vec8 c1, Vec8 c2, Vec8 c3, Vec4 (&row)[8]) {
-  const Vec8 t0 = __builtin_shufflevector(c0, c1, 0, 8, 2, 10, 4, 12, 6, 14),
-             t1 = __builtin_shufflevector(c0, c1, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vec8 t2 = __builtin_shufflevector(c2, c3, 0, 8, 2, 10, 4, 12, 6, 14),
-             t3 = __builtin_shufflevector(c2, c3, 1, 9, 3, 11, 5, 13, 7, 15);
-  const Vec8 z0 = __builtin_shufflevector(t0, t2, 0, 1, 8, 9, 4, 5, 12, 13),
-             z1 = __builtin_shufflevector(t1, t3, 0, 1, 8, 9, 4, 5, 12, 13);
-  const Vec8 z2 = __builtin_shufflevector(t0, t2, 2, 3, 10, 11, 6, 7, 14, 15),
-             z3 = __builtin_shufflevector(t1, t3, 2, 3, 10, 11, 6, 7, 14, 15);
+  const Vec8 t0 = shuffle_halves<0, 4, 2, 6>(c0, c1), t1 = shuffle_halves<1, 5, 3, 7>(c0, c1);
+  const Vec8 t2 = shuffle_halves<0, 4, 2, 6>(c2, c3), t3 = shuffle_halves<1, 5, 3, 7>(c2, c3);
+  const Vec8 z0 = shuffle_halves<0, 1, 4, 5>(t0, t2), z1 = shuffle_halves<0, 1, 4, 5>(t1, t3);
+  const Vec8 z2 = shuffle_halves<2, 3, 6, 7>(t0, t2), z3 = shuffle_halves<2, 3, 6, 7>(t1, t3);
   row[0] = low(z0);
   row[1] = low(z1);
   row[2] = low(z2);
@@ -281,10 +344,10 @@ NANSON_INLINE void finish_streams() {
 #endif
 }
 
-NANSON_INLINE bool any(Mask8 m) { return (m[0] | m[1] | m[2] | m[3] | m[4] | m[5] | m[6] | m[7]) != 0; }
+NANSON_INLINE bool any(const Mask8 m) { return (m[0] | m[1] | m[2] | m[3] | m[4] | m[5] | m[6] | m[7]) != 0; }
 NANSON_INLINE bool all(bool b) { return b; }
-NANSON_INLINE bool all(Mask8 m) { return (m[0] & m[1] & m[2] & m[3] & m[4] & m[5] & m[6] & m[7]) != 0; }
-NANSON_INLINE double largest(Vec8 v) {
+NANSON_INLINE bool all(const Mask8 m) { return (m[0] & m[1] & m[2] & m[3] & m[4] & m[5] & m[6] & m[7]) != 0; }
+NANSON_INLINE double largest(const Vec8 v) {
   double m = v[0];
   for (int i = 1; i < 8; ++i) m = v[i] > m ? v[i] : m;
   return m;

@@ -123,11 +123,10 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
         if constexpr (corrects) {
           prefetch_row<row::X, 60>(sense, rows.X, edges, e);
           const Vec4 D = Xa - load4(rows.X + row::X * b), y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
-          const Vec8 D01 = __builtin_shufflevector(D, D, 0, 0, 0, 2, 1, 1, 1,
-                                                   3);  // y has 0 in lane 3: D_2 there serves DD
+          const Vec8 D01 = lanes_of<0, 0, 0, 2, 1, 1, 1, 3>(D);  // y has 0 in lane 3: D_2 there serves DD
           q01 = add_product(sense, concat(y, y), D01, q01);
           q2 = add_product(sense, y, spread<2>(D), q2);
-          const Vec8 DD = D01 * __builtin_shufflevector(D, D, 0, 1, 2, 2, 0, 1, 2, 3);
+          const Vec8 DD = D01 * lanes_of<0, 1, 2, 2, 0, 1, 2, 3>(D);
           for (int I = 0; I < 3; ++I) CDD[I] = add_product(sense, DD, C[I], CDD[I]);
         }
       },
