@@ -167,7 +167,9 @@ int run_study(const fs::path& file, const std::optional<fs::path>& out, std::vec
   all.machine = machine_name();
   all.command = fmt::format("nanson study {}{}", shell_quoted(file.string()),
                             out ? fmt::format(" --out {}", shell_quoted(out->string())) : "");
-  ::setenv("OMP_WAIT_POLICY", "passive", 0);  // of the children: spinning threads take the cores from everybody
+  // Of the children, as in the launcher: their threads spin for a short time, then sleep.
+  if (std::getenv("OMP_WAIT_POLICY") == nullptr) ::setenv("GOMP_SPINCOUNT", "1000", 0);
+  ::setenv("OMP_WAIT_POLICY", "passive", 0);
   fmt::print(stderr, "{}: {} runs, {} thread{} each, results: {}\n", read.study.name, all.runs.size(),
              read.study.threads, read.study.threads == 1 ? "" : "s", all.folder.string());
   catch_stop_signals();

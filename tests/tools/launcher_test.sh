@@ -16,15 +16,16 @@ tool() { { echo '#!/bin/bash'; cat; } > "$tools/$1" && chmod +x "$tools/$1"; }
 fresh_tree() {
   rm -rf "$tree" "$tools"
   mkdir -p "$tree"/{cmake,kernels,engine,io,tests,bench} "$tools" "$work/elsewhere"
-  cp "$launcher" "$tree/nanson"
+  cp "$launcher" "$(dirname "$launcher")/packages.txt" "$tree"
   touch -d '1 minute ago' "$tree"/{CMakeLists.txt,CMakePresets.json,io/main.cpp} "$tree"/{cmake,kernels,engine,io,tests,bench}
   tool cmake << STUB
 echo "cmake \$*" >> "$called"
 if [[ \$1 == -S ]]; then mkdir -p "\$2/build/release"; exit; fi
 [[ -z \${BREAK_BUILD:-} ]] || { echo "engine/broken.cpp:1: error"; exit 7; }
 sleep "\${BUILD_SECONDS:-0}"
+printf '[%3d%%] Building CXX\n' 1 7 45 60 100
 for program in nanson nanson_bench; do
-  printf '%s\n' '#!/bin/bash' "echo \$program in \"\\\$PWD\" got \"\\\$*\"" '[[ \$1 != unknown ]] || exit 42' > "\$2/\$program"
+  printf '%s\n' '#!/bin/bash' "echo \$program in \"\\\$PWD\" got \"\\\$*\"" '[[ \$1 != unknown ]] || exit 42' '[[ \$1 != waiting ]] || echo \${OMP_WAIT_POLICY:-none} \${GOMP_SPINCOUNT:-none}' > "\$2/\$program"
   chmod +x "\$2/\$program"
 done
 STUB
@@ -43,6 +44,10 @@ launch() {
   calls=$(< "$called")
 }
 
+launched_with() {  # how threads of the program wait
+  PATH="$tools:$PATH" "$tree/nanson" waiting
+}
+
 check() {  # FACT VALUE PATTERN
   # shellcheck disable=SC2053
   [[ $2 == $3 ]] && return
@@ -57,6 +62,9 @@ fresh_tree
 launch run scene.toml --set a.b=1
 check "the first call configures with tests" "$calls" "*cmake -S $tree --preset release -DBUILD_TESTING=ON*"
 check "run builds the program only" "$calls" "*--target nanson --parallel*"
+check "and tells how far it is" "$messages" "*building nanson: 45 %*building nanson: 100 %"
+check "once in twenty per cent" "$(grep -c ' %$' <<< "$messages")" 3
+check "the log has every line" "$(grep -c '^\[' "$tree/build/build.log")" 5
 check "the program starts where the user stands, with all arguments" "$output" "nanson in $work/elsewhere got run scene.toml --set a.b=1"
 check "nothing is installed when nothing is missing" "$calls" "cmake*"
 
@@ -66,6 +74,9 @@ check "and says nothing of its own" "$messages" ""
 
 launch unknown
 check "the exit code is that of the program" "$code" 42
+
+check "threads spin for a short time, then sleep" "$(launched_with)" "*passive 1000"
+check "unless the user says how they wait" "$(OMP_WAIT_POLICY=active launched_with)" "*active none"
 
 ln -s "$tree/nanson" "$work/link"
 output=$(PATH="$tools:$PATH" "$work/link" --version)
