@@ -148,7 +148,7 @@ TEST(Column, LoadTransposedTakesEightRowsAsFourLanes) {
 TEST(Column, StoreTransposedIsTheInverseAndTouchesNothingElse) {
   for (const int stride : {4, 16, 24}) {
     alignas(64) double rows[8 * 24];
-    back[8 * 24];
+    alignas(64) double back[8 * 24];
     for (int k = 0; k < 8 * 24; ++k) {
       rows[k] = k;
       back[k] = -1;

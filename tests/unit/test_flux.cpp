@@ -109,7 +109,7 @@ TEST(Flux, MetricsAgreeBitwiseWhereTheAreaHasNotGrown) {
 TEST(Flux, AverageTractionAndAreaIsTheMeanOfBothEndsTimesC) {
   Random random(4);
   alignas(64) double a[24];
-  b[24];
+  alignas(64) double b[24];
   for (int k = 0; k < 24; ++k) {
     a[k] = uniform(random, -1, 1);
     b[k] = uniform(random, -1, 1);

@@ -85,9 +85,9 @@ TEST(BarthJespersen, IsOneForAConstantFieldAndZeroAtAnExtremum) {
 TEST(BarthJespersen, DoesNotMakeNaNANumber) {
   for (int bad = 0; bad < 4; ++bad) {
     alignas(64) double X[8] = {0, 0, 0, 1, 1, 0, 0, 1};
-    W[8] = {};
-    G[24];
-    L[8];
+    alignas(64) double W[8] = {};
+    alignas(64) double G[24];
+    alignas(64) double L[8];
     for (double& g : G) g = 0.1;
     for (double& l : L) l = 1;
     for (int I = 0; I < 3; ++I) G[4 * I + bad] = nan_value;
