@@ -23,6 +23,12 @@ std::vector<std::string> fields_of(std::string_view line) {
   return fields;
 }
 
+bool is_number(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return end == text.c_str() + text.size();
+}
+
 }  // namespace
 
 std::optional<std::size_t> CsvTable::column(std::string_view name) const {
@@ -66,7 +72,9 @@ std::optional<CsvTable> read_csv(const std::filesystem::path& file, std::string&
   return text ? parse_csv(*text, why) : std::nullopt;
 }
 
-std::string csv_text(const std::string& text) {
+std::string csv_text(std::string text) {
+  if (!text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos && !is_number(text))
+    text = '\'' + text;
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

@@ -21,7 +21,7 @@ struct CsvTable {
 std::optional<CsvTable> parse_csv(std::string_view text, std::string& why);
 std::optional<CsvTable> read_csv(const std::filesystem::path& file, std::string& why);
 
-/// A field, quoted where it needs to be.
-std::string csv_text(const std::string& text);
+/// A field, quoted where it needs to be; one that a spreadsheet would take for a formula gets an apostrophe before it.
+std::string csv_text(std::string text);
 
 }  // namespace nanson

@@ -13,6 +13,8 @@ import sys
 import h5py
 import numpy as np
 
+from gnuplot_text import quoted, quoted_path
+
 A, P, RHO0, E, NU = 0.1, 1e6, 3000.0, 62.5e9, 0.25   # [m] [Pa] [kg/m^3] [Pa] [-]
 
 
@@ -49,12 +51,12 @@ def main():
         exact = closed_form(r, end)
         print(f"{folder}: relative L1 error of pressure {(weight * abs(p - exact)).sum() / (weight * abs(exact)).sum():.3f}")
         blocks.append("\n".join(f"{a:.5g} {b:.5g}" for a, b in zip(r, p)))
-        curves.append(f'$data index {len(blocks)} with lines lw 1.4 title "{os.path.basename(folder)}"')
+        curves.append(f'$data index {len(blocks)} with lines lw 1.4 title {quoted(os.path.basename(folder))}')
     r = np.linspace(A, 1, 600)
     blocks.insert(0, "\n".join(f"{a:.5g} {b:.5g}" for a, b in zip(r, closed_form(r, end))))
     data = "\n\n\n".join(blocks)
     script = f"""set terminal svg size 640,360 font "sans-serif,12" background "white"
-set output "{o.out}"
+set output {quoted_path(o.out)}
 set grid
 set key noenhanced top left
 set xlabel "r [m]"

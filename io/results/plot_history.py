@@ -10,6 +10,8 @@ import os
 import subprocess
 import sys
 
+from gnuplot_text import quoted, quoted_path
+
 
 def headers(folder):
     with open(os.path.join(folder, "history.csv")) as file:
@@ -37,11 +39,11 @@ def main():
         sys.exit(f"{len(labels)} labels for {len(o.results)} runs")
     panels = []
     for name in o.columns:
-        curves = [f'"{folder}/history.csv" using {column(folder, "t")[0]}:{column(folder, name)[0]} with lines lw 1.5 title "{label}"'
+        curves = [f'{quoted_path(folder + "/history.csv")} using {column(folder, "t")[0]}:{column(folder, name)[0]} with lines lw 1.5 title {quoted(label)}'
                   for folder, label in zip(o.results, labels)]
-        panels.append(f'set ylabel "{column(o.results[0], name)[1]}" noenhanced\nplot {", ".join(curves)}')
+        panels.append(f'set ylabel {quoted(column(o.results[0], name)[1])} noenhanced\nplot {", ".join(curves)}')
     script = f"""set terminal svg size 640,{280 * len(panels) + 40} font "sans-serif,12" background "white"
-set output "{o.out}"
+set output {quoted_path(o.out)}
 set datafile separator comma
 set grid
 set key outside right noenhanced

@@ -7,7 +7,7 @@
 
 #include "io/child_process.hpp"
 #include "io/replace_file.hpp"
-#include "io/study/write_study.hpp"
+#include "io/study/study_plots.hpp"
 #include "io/text_file.hpp"
 
 namespace nanson {
@@ -60,16 +60,13 @@ std::vector<std::string> draw(std::vector<StudyPlot>& plots, const fs::path& fol
   for (StudyPlot& plot : plots) {
     const fs::path script = folder / (plot.name + ".gnuplot"), svg = folder / (plot.name + ".svg"),
                    log = folder / (plot.name + ".log");
-    std::string title = plot.title;
-    replace_all(title, "\n", " ");
-    replace_file(script,
-                 fmt::format("# {}: gnuplot {}.gnuplot > {}.svg\n{}", title, plot.name, plot.name, plot.script));
+    replace_file(script, fmt::format("# {}: gnuplot {}.gnuplot > {}.svg\n{}", gnuplot_text(plot.title), plot.name,
+                                     plot.name, plot.script));
     fs::remove(svg);
     if (gnuplot.empty()) continue;
-    const fs::path raw = folder / (plot.name + ".tmp.svg"), run = folder / (plot.name + ".tmp.gnuplot");
-    std::string output = raw.string();
-    replace_all(output, "'", "''");  // as gnuplot writes a quote inside quotes
-    replace_file(run, fmt::format("set output '{}'\n", output) + plot.script);
+    const fs::path here = fs::absolute(folder);  // gnuplot takes a name that begins with < or | for a command
+    const fs::path raw = here / (plot.name + ".tmp.svg"), run = here / (plot.name + ".tmp.gnuplot");
+    replace_file(run, fmt::format("set output {}\n", gnuplot_text(raw.string())) + plot.script);
     const ChildEnd end = run_child({gnuplot.string(), run.string()}, log, {60, 5}, [] { return 0; });
     std::string why;
     const auto text = read_text_file(raw, why);

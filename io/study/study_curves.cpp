@@ -124,7 +124,7 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
   script += fmt::format(
       "set key below maxcols {} left Left reverse samplen 2.5 width -3 font \",13\"\nset grid lc \"#dddddd\" lt 1\nset "
       "border lc \"#444444\"\nset xlabel {} offset 0,0.3\nset ylabel {}\n",
-      columns, quoted(axis_name(x)), quoted(axis_name(y)));
+      columns, gnuplot_text(axis_name(x)), gnuplot_text(axis_name(y)));
   const auto [x_low, x_high] = span_of(ours, theirs, &std::pair<double, double>::first);
   const auto [y_low, y_high] = span_of(ours, theirs, &std::pair<double, double>::second);
   script += "set offsets graph 0.04, graph 0.04, graph 0.06, graph 0.06\n";
@@ -136,7 +136,7 @@ std::string curve_script(const ReportSpec& report, const std::vector<Curve>& our
     script += fmt::format("$data{} << EOD\n", n);
     for (const auto& [px, py] : c.points) script += fmt::format("{:.10g} {:.10g}\n", px, py);
     script += "EOD\n";
-    plots += fmt::format("  $data{} using 1:2 with {} title {}, \\\n", n++, what, quoted(title));
+    plots += fmt::format("  $data{} using 1:2 with {} title {}, \\\n", n++, what, gnuplot_text(title));
   };
   for (std::size_t i = 0; i < ours.size(); ++i) {
     const PlotStyle s = curve_style(i);

@@ -36,7 +36,8 @@ void add_map(const StudyResults& all, std::vector<StudyPlot>& plots) {
   if (all.done() == 0) return;
   const auto tics = [](const std::vector<std::string>& names) {
     std::string list;
-    for (std::size_t i = 0; i < names.size(); ++i) list += fmt::format("{}{} {}", i ? ", " : "", quoted(names[i]), i);
+    for (std::size_t i = 0; i < names.size(); ++i)
+      list += fmt::format("{}{} {}", i ? ", " : "", gnuplot_text(names[i]), i);
     return list;
   };
   std::size_t longest = 0, widest = 0;
@@ -47,7 +48,7 @@ void add_map(const StudyResults& all, std::vector<StudyPlot>& plots) {
   script += fmt::format(
       "set key below maxcols 4 left Left reverse samplen 1\nset border lc \"#444444\"\nset xlabel {} offset 0,0.9\nset "
       "xtics ({}){}\nset ytics ({})\nset lmargin {}\n",
-      quoted(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
+      gnuplot_text(x), tics(columns), turned ? " rotate by 45 right" : "", tics(rows), longest + 3);
   script += fmt::format("set xrange [-0.6:{}.6]\nset yrange [{}.6:-0.6]\nset grid lc \"#eeeeee\" lt 1\n",
                         columns.size() - 1, rows.size() - 1);
   std::string plot;
@@ -55,7 +56,8 @@ void add_map(const StudyResults& all, std::vector<StudyPlot>& plots) {
     if (data[v].empty()) continue;
     script += fmt::format("$verdict{} << EOD\n{}EOD\n", v, data[v]);
     plot += fmt::format("  $verdict{} using 1:2 with points lc \"{}\" pt {} ps 1.6 lw 2.5 title {}, \\\n", v,
-                        verdict_styles[v].colour, verdict_styles[v].marker, quoted(std::string(words(Verdict{})[v])));
+                        verdict_styles[v].colour, verdict_styles[v].marker,
+                        gnuplot_text(std::string(words(Verdict{})[v])));
   }
   plots.push_back({"", "Stability map", "Each mark is a run; its shape and colour are the verdict.",
                    script + "plot \\\n" + plot.substr(0, plot.size() - 4) + "\n", ""});
@@ -67,7 +69,7 @@ void add_bars(const StudyResults& all, std::vector<StudyPlot>& plots) {
   const std::string& baseline = all.study->report.baseline;
   for (const std::string& y : all.study->report.y) {
     std::optional<double> base;
-    std::string data;
+    std::string data, names, values;
     std::size_t longest = 0, count = 0;
     double largest = 0;
     for (std::size_t i = 0; i < all.runs.size() && !baseline.empty(); ++i)
@@ -77,8 +79,10 @@ void add_bars(const StudyResults& all, std::vector<StudyPlot>& plots) {
       if (!all.results[i].ended() || !value) continue;
       const std::string name = name_of(all.runs[i].plan, keys);
       const std::string ratio = base && *base != 0 ? fmt::format("  ({:.2f})", *value / *base) : "";
-      data += fmt::format("{} {} {:.10g} {}\n", count++, quoted(name), *value,
-                          quoted(fmt::format("{:.4g}{}", *value, ratio)));
+      data += fmt::format("{} {:.10g}\n", count, *value);
+      names += fmt::format("{}{} {}", count ? ", " : "", gnuplot_text(name), count);
+      values += fmt::format("set label {} at {:.10g},{} left offset 0.7,0\n",
+                            gnuplot_text(fmt::format("{:.4g}{}", *value, ratio)), *value, count++);
       longest = std::max(longest, name.size());
       largest = std::max(largest, *value);
     }
@@ -87,12 +91,11 @@ void add_bars(const StudyResults& all, std::vector<StudyPlot>& plots) {
     script += fmt::format(
         "unset key\nset border 3 lc \"#444444\"\nset xlabel {}\nset lmargin {:.1f}\nset xrange [0:{:.6g}]\nset yrange "
         "[{}.6:-0.6]\nset style fill solid 0.6 border lc \"#0072b2\"\n",
-        quoted(axis_name(y)), 0.8 * static_cast<double>(longest) + 3, largest > 0 ? (base ? 1.6 : 1.3) * largest : 1,
-        count - 1);
-    script += fmt::format("set xtics nomirror\nset ytics nomirror scale 0\n$bars << EOD\n{}EOD\n", data);
-    script +=
-        "plot $bars using ($3/2):1:($3/2):(0.32):ytic(2) with boxxyerror lc \"#0072b2\", $bars using 3:1:4 with labels "
-        "left offset 0.7,0\n";
+        gnuplot_text(axis_name(y)), 0.8 * static_cast<double>(longest) + 3,
+        largest > 0 ? (base ? 1.6 : 1.3) * largest : 1, count - 1);
+    script += fmt::format("set xtics nomirror\nset ytics nomirror scale 0 ({})\n{}$bars << EOD\n{}EOD\n", names, values,
+                          data);
+    script += "plot $bars using ($2/2):1:($2/2):(0.32) with boxxyerror lc \"#0072b2\"\n";
     plots.push_back(
         {"", headline(axis_name(y)), base ? fmt::format("In brackets: times \"{}\".", baseline) : "", script, ""});
   }
@@ -100,10 +103,10 @@ void add_bars(const StudyResults& all, std::vector<StudyPlot>& plots) {
 
 }  // namespace
 
-std::string quoted(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' || c == '\\' ? std::string("\\") + c : c == '\n' ? " " : std::string(1, c);
-  return out + '"';
+std::string gnuplot_text(const std::string& text) {
+  std::string out = "'";
+  for (const char c : text) out += c == '\'' ? "''" : std::string(1, static_cast<unsigned char>(c) < 0x20 ? ' ' : c);
+  return out + "'";
 }
 
 std::string terminal(int width, int height) {

@@ -10,8 +10,8 @@ struct PlotStyle {
   int marker, dash;
 };
 
-/// A double-quoted gnuplot string on one line.
-std::string quoted(const std::string& text);
+/// A single-quoted gnuplot string on one line: gnuplot runs what stands between backquotes in a double-quoted one.
+std::string gnuplot_text(const std::string& text);
 
 std::string terminal(int width, int height);
 std::string headline(std::string text);

@@ -206,6 +206,45 @@ def test_a_quote_in_the_folder():
     assert len(list(Path("it's").glob("plot-*.svg"))) == HAS_GNUPLOT
 
 
+HOSTILE = """study = "hostile"
+kind = "{kind}"
+scene = "{source}/configs/low_dispersion_cube.toml"
+[set]
+"mesh.cells" = [2, 2, 2]
+"time.end" = 0.0002
+[vary]
+"time.cfl" = [0.2, 0.3]
+[[case]]
+name = "{name}"
+set = {{ "monitor.energy" = true }}
+[report]
+y = ["steps"]
+{more}
+"""
+
+
+def test_nothing_between_backquotes_runs():
+    """Not from a case's name, a reference's label, the folder or --labels, quoted either way; names that gnuplot takes for a pipe neither."""
+    names = ["a`touch RAN1`b", "q' . system('touch RAN2') . 'b", 'q\\" . system(\\"touch RAN3\\") . \\"b', "=cmd|'touch RAN4'", "{brace", "back\\\\slash\\\\"]
+    Path("reference.csv").write_text('label,cpu_s,steps\n"x`touch RAN5`",1,2\n')
+    for i, name in enumerate(names):
+        for kind, more in ("sweep", 'x = "cpu_s"\nreference = "reference.csv"'), ("compare", ""), ("stability", 'x = "time.cfl"'):
+            Path("hostile.toml").write_text(HOSTILE.format(kind=kind, source=SOURCE, name=name, more=more))
+            out = f"<`touch RAN6`{i}{kind}" if i % 2 else f"|touch RAN7;{i}{kind}"
+            err = study("hostile.toml", out=out)
+            assert "could not draw" not in err, err
+            if HAS_GNUPLOT:
+                assert list(Path(out).glob("plot-*.svg")), err
+                plain = subprocess.run(["gnuplot", "plot-1.gnuplot"], cwd=out, capture_output=True, text=True)
+                assert plain.returncode == 0 and "</svg>" in plain.stdout, plain.stderr
+    if HAS_GNUPLOT:
+        run = subprocess.run([NANSON, "run", f"{SOURCE}/configs/low_dispersion_cube.toml", "--quiet", "--set", "mesh.cells=[2,2,2]", "--set", "time.end=0.0002", "--out", "<`touch RAN8`"])
+        assert run.returncode == 0
+        subprocess.run([f"{SOURCE}/io/results/plot_history.py", "<`touch RAN8`", "--columns", "dt", "-o", "|`touch RAN8`.svg", "--labels", "`touch RAN9`'"], check=True)
+        assert Path("|`touch RAN8`.svg").read_text().endswith("</svg>\n\n")
+    assert not list(Path(".").rglob("RAN*")), list(Path(".").rglob("RAN*"))
+
+
 def test_bad_input_starts_nothing():
     Path("bad.toml").write_text((STUDIES / "smoke.toml").read_text().replace('"../', f'"{SOURCE}/configs/').replace("[6, 6, 6]", "[6, 6]").replace('"full"', '"fall"'))
     err = study("bad.toml", code=2)

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "io/read_csv.hpp"
-#include "io/study/write_study.hpp"
+#include "io/study/study_plots.hpp"
 
 namespace nanson {
 namespace {
@@ -88,10 +88,36 @@ TEST(StudyPlots, ErrorsOfBrokenRunsAreNotDrawn) {
   s.report.reference = {{"peer", {{"time.cfl", 0.5}, {"errors.p1_L2", 0.2}}}, {"elsewhere", {{"time.cfl", 0.5}}}};
   const auto plots = study_plots(sample(s));
   ASSERT_EQ(plots.size(), 1u);
-  EXPECT_NE(plots[0].script.find("title \"pF\""), std::string::npos);
-  EXPECT_EQ(plots[0].script.find("title \"pFJ\""), std::string::npos);
-  EXPECT_NE(plots[0].script.find("title \"peer\""), std::string::npos);
+  EXPECT_NE(plots[0].script.find("title 'pF'"), std::string::npos);
+  EXPECT_EQ(plots[0].script.find("title 'pFJ'"), std::string::npos);
+  EXPECT_NE(plots[0].script.find("title 'peer'"), std::string::npos);
   EXPECT_EQ(plots[0].script.find("elsewhere"), std::string::npos);
+}
+
+TEST(StudyPlots, NoStringInAScriptCanRunACommand) {
+  EXPECT_EQ(gnuplot_text("a`b`\\ 'c'\n$d"), "'a`b`\\ ''c'' $d'");
+  for (const StudyKind kind : {StudyKind::stability, StudyKind::sweep, StudyKind::compare}) {
+    Study s = map_study();
+    s.kind = kind;
+    s.report.reference = {{"x`r`", {{"time.cfl", 0.5}, {"errors.p1_L2", 0.2}}}};
+    s.vary[0].values[0].value = "\"a`n`\"";
+    for (const StudyPlot& p : study_plots(sample(s))) {
+      bool single = false, doubled = false;
+      for (const char c : p.script) {
+        single ^= c == '\'' && !doubled;
+        doubled ^= c == '"' && !single;
+        EXPECT_TRUE(c != '`' || single) << p.script;
+      }
+    }
+  }
+}
+
+TEST(StudyTable, NoCellIsAFormula) {
+  EXPECT_EQ(csv_text("=1+1"), "'=1+1");
+  EXPECT_EQ(csv_text("@SUM(A1,A2)"), "\"'@SUM(A1,A2)\"");
+  EXPECT_EQ(csv_text("-x"), "'-x");
+  EXPECT_EQ(csv_text("\tx"), "'\tx");
+  for (const char* number : {"-5", "+1e-3", "-inf", "-0.25"}) EXPECT_EQ(csv_text(number), number);
 }
 
 TEST(StudyPage, EscapesTextAndQuotesCommands) {
