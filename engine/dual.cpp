@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/compensated_sum.hpp"
+
 namespace nanson {
 namespace {
 
@@ -97,7 +99,7 @@ DualDefects check_dual(const Mesh& mesh, const Dual& dual) {
   }
   for (std::size_t n = 0; n < sum.size(); ++n) worst.closure = std::max(worst.closure, norm(sum[n]) / size[n]);
 
-  double tets = 0, cells = 0;
+  CompensatedSum tets, cells;
   std::vector<double> around(dual.edges.size(), 0.0);
   for (const auto& t : mesh.tets) {
     const double V = tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);

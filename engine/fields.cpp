@@ -7,6 +7,7 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/compensated_sum.hpp"
 #include "engine/hash.hpp"
 #include "engine/initial.hpp"
 #include "engine/manufactured.hpp"
@@ -149,7 +150,7 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
   const MaterialConstants& m = s.coefficients.material;
   const auto P11 = [&](const PointState& p) { return exact_stress(s.scene->material, m, p)[0][0]; };
   const Vec3 middle = middle_of_box(*s.mesh);
-  double e1[2]{}, e2[2]{}, x1[3]{}, x2[3]{};  // p1, P11; sizes of p1, P11 at t and P11 at t = 0
+  CompensatedSum e1[2], e2[2], x1[3], x2[3];  // p1, P11; sizes of p1, P11 at t and P11 at t = 0
   for (int n = 0; n < s.order.nodes; ++n) {
     const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
     const double V = s.volume[static_cast<std::size_t>(n)];

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "engine/compensated_sum.hpp"
 #include "engine/initial.hpp"
 #include "engine/material.hpp"
 #include "engine/monitor.hpp"
@@ -102,10 +103,13 @@ Rows start_rows(const Simulation& s, int to) {
 
 void open_ledger(Simulation& s) {
   Ledger& l = s.ledger;
-  for (double V : s.volume) l.volume += V;
-  if (s.mixture.empty()) l.mass = l.volume * s.coefficients.material.rho;
-  else
-    for (std::size_t n = 0; n < s.volume.size(); ++n) l.mass += s.volume[n] * density(s, s.order.row_of[n]);
+  CompensatedSum volume, mass;
+  for (std::size_t n = 0; n < s.volume.size(); ++n) {
+    volume += s.volume[n];
+    mass += s.volume[n] * density(s, s.order.row_of[n]);
+  }
+  l.volume = volume;
+  l.mass = s.mixture.empty() ? volume * s.coefficients.material.rho : mass;
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   l.initial_energy = e.kinetic + e.strain;

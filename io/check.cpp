@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/compensated_sum.hpp"
 #include "engine/mesh/mesh_quality.hpp"
 #include "engine/monitor.hpp"
 #include "io/progress.hpp"
@@ -27,7 +28,7 @@ void print_materials(const Simulation& s) {
   for (std::size_t m = 0; m < s.scene->materials.size(); ++m) {
     const MaterialSpec& spec = s.scene->materials[m];
     const MaterialConstants& c = s.mixture.laws[m].constants;
-    double volume = 0;
+    CompensatedSum volume;
     for (int n = 0; n < s.order.nodes; ++n)
       volume += s.volume[static_cast<std::size_t>(n)]
                 * s.mixture.share[m][static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)])];

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "engine/compensated_sum.hpp"
+
 namespace nanson {
 namespace {
 
@@ -23,7 +25,7 @@ double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) {
   return std::hypot(u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]) / 2;
 }
 
-void add_tet(const Mesh& mesh, int t, MeshQuality& q) {
+void add_tet(const Mesh& mesh, int t, MeshQuality& q, CompensatedSum& total) {
   std::array<Vec3, 4> x;
   for (int v = 0; v < 4; ++v) x[v] = mesh.X[mesh.tets[t][v]];
   for (int v = 0; v < 4; ++v)
@@ -33,7 +35,7 @@ void add_tet(const Mesh& mesh, int t, MeshQuality& q) {
       q.max_edge = std::max(q.max_edge, length);
     }
   const double volume = tet_volume(x[0], x[1], x[2], x[3]), shape = mean_ratio(x[0], x[1], x[2], x[3]);
-  q.volume += volume;
+  total += volume;
   q.min_volume = std::min(q.min_volume, volume);
   q.max_volume = std::max(q.max_volume, volume);
   ++q.histogram[std::clamp(int(shape * 10), 0, 9)];
@@ -60,13 +62,18 @@ MeshQuality mesh_quality(const Mesh& mesh) {
   q.tets = mesh.tets.size();
   q.boundary_faces = mesh.faces.size();
   q.min_edge = q.min_volume = q.worst = huge;
-  for (int t = 0; t < int(mesh.tets.size()); ++t) add_tet(mesh, t, q);
+  CompensatedSum volume;
+  for (int t = 0; t < int(mesh.tets.size()); ++t) add_tet(mesh, t, q, volume);
+  q.volume = volume;
   for (const auto& name : mesh.patch_names) q.patches.push_back({name});
+  std::vector<CompensatedSum> area(q.patches.size() + 1);  // last: without a name
   for (const auto& face : mesh.faces) {
-    PatchSize& patch = face.patch < 0 ? q.unnamed : q.patches[face.patch];
-    ++patch.faces;
-    patch.area += triangle_area(mesh.X[face.nodes[0]], mesh.X[face.nodes[1]], mesh.X[face.nodes[2]]);
+    const std::size_t patch = face.patch < 0 ? q.patches.size() : static_cast<std::size_t>(face.patch);
+    ++(face.patch < 0 ? q.unnamed : q.patches[patch]).faces;
+    area[patch] += triangle_area(mesh.X[face.nodes[0]], mesh.X[face.nodes[1]], mesh.X[face.nodes[2]]);
   }
+  for (std::size_t p = 0; p < q.patches.size(); ++p) q.patches[p].area = area[p];
+  q.unnamed.area = area.back();
   return q;
 }
 

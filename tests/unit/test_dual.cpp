@@ -5,6 +5,7 @@
 
 #include <map>
 
+#include "engine/compensated_sum.hpp"
 #include "tests/unit/meshes.hpp"
 
 using namespace nanson;
@@ -53,6 +54,26 @@ std::map<std::pair<int, int>, Vec3> areas_by_triangles(const Mesh& mesh) {
 }
 
 }  // namespace
+
+TEST(Dual, TotalsOfManyTetsAgreeToRoundOff) {
+  const Mesh many = box({40, 40, 40}, Split::kuhn, 0);
+  EXPECT_LT(check_dual(many, make_dual(many)).volume, 1e-15);  // plain sums: 2e-12, growing with the number of tets
+}
+
+TEST(CompensatedSum, DoesNotGrowWithTheNumberOfTerms) {
+  const double V = 1.0 / (97.0 * 97 * 97) / 6;
+  CompensatedSum sum;
+  double plain = 0;
+  for (int n = 0; n < 6 * 97 * 97 * 97; ++n) {
+    sum += V;
+    plain += V;
+  }
+  EXPECT_GT(std::abs(plain - 1), 1e-10);
+  EXPECT_LT(std::abs(sum - 1), 4e-16);
+  CompensatedSum mixed;
+  for (const double x : {1.0, 1e100, 1.0, -1e100}) mixed += x;
+  EXPECT_EQ(mixed, 2.0);
+}
 
 TEST_P(DualOfABox, HasEveryEdgeOnceSorted) {
   const auto areas = areas_by_triangles(mesh);
