@@ -1,5 +1,5 @@
 // The plain loop that tests trust and benches compare with: serial, scalar, edge scatter, four passes a stage, no prefetch, the node order of the engine.
-// Written from the formulas of the paper and of method.md, not from kernels/; only the material laws are shared, which have unit tests of their own.
+// Written from the formulas of the paper and of the method (kernels/README.md), not from kernels/; only the material laws are shared, which have unit tests of their own.
 #pragma once
 #include <array>
 #include <vector>

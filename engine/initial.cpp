@@ -102,7 +102,7 @@ PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, 
     case InitialField::plate_mode: out.v = plate_mode(s, X); break;
     case InitialField::punch:
       out.v = {0, 0, -s.v0 * (0.5 - std::abs(X[0])) * (0.5 - std::abs(X[1])) * X[2] / s.height};
-      break;  // scenes, 6
+      break;  // downwards (method, section 12)
     case InitialField::manufactured:
     case InitialField::standing_wave:
     case InitialField::plane_wave: return exact_solution(scene, middle, X, 0);

@@ -1,4 +1,4 @@
-// Several materials in one mesh: which nodes see which laws, and what a node on an interface makes of them (architecture.md, Memory).
+// Several materials in one mesh: which nodes see which laws, and what a node on an interface makes of them (method, section 15).
 #pragma once
 #include <vector>
 

@@ -215,7 +215,7 @@ TEST(EnergyAudit, OfAFreeFallIsExact) {
   }
 }
 
-/// The prototype's figures (scenes.md, 5; method, section 3): 1.496 and 0.798 of the initial energy at 0.1 s, residual +1.40.
+/// The prototype's figures (method, departures from the paper): 1.496 and 0.798 of the initial energy at 0.1 s, residual +1.40.
 TEST(EnergyAudit, ExposesThePapersBoundaryFlux) {
   Scene scene = column(4);
   scene.physics.formulation = Formulation::pF;

@@ -1,4 +1,4 @@
-// The flux correction of a step's last stage is that of the next step's first stage too (README, departures): what is left to it, what readers see, what it costs in accuracy.
+// The flux correction of a step's last stage is that of the next step's first stage too (method, section 14): what is left to it, what readers see, what it costs in accuracy.
 #include <gtest/gtest.h>
 
 #include "scenes.hpp"

@@ -45,7 +45,7 @@ std::string label(const CubeCase& c) {
   return fmt::format("{}_{}_{}_{}_{}", word(c.split), word(c.formulation), word(c.correction), word(c.J), c.n);
 }
 
-/// L1 and L2 errors of p1 and P11 relative to the exact field at t [1e-4]: method.md, sections 13 and 14. A negative figure is not known.
+/// L1 and L2 errors of p1 and P11 relative to the exact field at t [1e-4]: method, sections 13 and 14. A negative figure is not known.
 struct Figures {
   CubeCase cube;
   double p1_L1, p1_L2, P11_L1, P11_L2;

@@ -1,4 +1,4 @@
-# The launcher, results read with other programs, where these are installed, and the build's provenance script.
+# The launcher, the pages, results read with other programs, where these are installed, and the build's provenance script.
 add_test(NAME Launcher COMMAND ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/launcher_test.sh)
 
 add_executable(write_sample tests/tools/write_sample.cpp)
@@ -25,6 +25,8 @@ add_test(NAME Provenance.ScriptWithoutGitAndWithoutChange
                  -DWORK=${CMAKE_CURRENT_BINARY_DIR}/provenance_test -P ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/check_provenance.cmake)
 
 if(NANSON_PYTHON)
+  add_test(NAME Pages
+           COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/check_pages.py ${CMAKE_CURRENT_SOURCE_DIR} $<TARGET_FILE:nanson>)
   add_test(NAME Study.EndToEnd
            COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/study_test.py $<TARGET_FILE:nanson> ${CMAKE_CURRENT_SOURCE_DIR})
   find_program(NANSON_CHROMIUM NAMES chromium chromium-browser google-chrome)
