@@ -9,17 +9,18 @@
 #include "engine/compensated_sum.hpp"
 #include "engine/mesh/mesh_quality.hpp"
 #include "engine/monitor.hpp"
+#include "io/print.hpp"
 #include "io/progress.hpp"
 
 namespace nanson {
 namespace {
 
 void print_limits(const Simulation& s) {
-  fmt::print("smallest steps (cfl {:g}, step {}):\n", s.scene->time.cfl, word(s.scene->time.step));
+  print(stdout, "smallest steps (cfl {:g}, step {}):\n", s.scene->time.cfl, word(s.scene->time.step));
   for (const auto& [node, dt] : limiting_nodes(s, 10)) {
     const Vec3& X = s.mesh->X[static_cast<std::size_t>(node)];
-    fmt::print("  dt {:.4e} s at node {} ({:.6g}, {:.6g}, {:.6g}) m, tets {}\n", dt, node, X[0], X[1], X[2],
-               fmt::join(tets_around(*s.mesh, node), " "));
+    nanson::print(stdout, "  dt {:.4e} s at node {} ({:.6g}, {:.6g}, {:.6g}) m, tets {}\n", dt, node, X[0], X[1], X[2],
+                  fmt::join(tets_around(*s.mesh, node), " "));
   }
 }
 
@@ -34,8 +35,8 @@ void print_materials(const Simulation& s) {
                 * s.mixture.share[m][static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)])];
     std::string regions;
     for (const Named& region : spec.regions) regions += (regions.empty() ? "" : " ") + region.name;
-    fmt::print("material {}: {}, volume {:.6g} m^3, mass {:.6g} kg, c_p {:.6g} m/s, c_s {:.6g} m/s\n", regions,
-               word(spec.law), volume, volume * c.rho, c.cp, c.cs);
+    print(stdout, "material {}: {}, volume {:.6g} m^3, mass {:.6g} kg, c_p {:.6g} m/s, c_s {:.6g} m/s\n", regions,
+          word(spec.law), volume, volume * c.rho, c.cp, c.cs);
   }
 }
 
@@ -55,23 +56,23 @@ double timed_step(Simulation& s) {
 }  // namespace
 
 int check_scene(const Loaded& loaded, int threads) {
-  fmt::print("{}", to_text(mesh_quality(loaded.mesh)));
+  print(stdout, "{}", to_text(mesh_quality(loaded.mesh)));
   Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
   const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);
-  fmt::print("mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass,
-             s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup.total() + loaded.mesh_s);
+  print(stdout, "mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.ledger.mass,
+        s.ledger.initial_energy, s.edges, s.order.parts.size(), s.setup.total() + loaded.mesh_s);
   print_materials(s);
   print_limits(s);
   const double seconds = timed_step(s);
-  if (s.breakdown) fmt::print("the first steps break down: {}\n", s.breakdown->text);
+  if (s.breakdown) print(stdout, "the first steps break down: {}\n", s.breakdown->text);
   else
-    fmt::print("about {:.0f} steps of {:.3e} s; {:.0f} ns per node-step on {} threads: {} without output\n", steps, dt,
-               1e9 * seconds / s.order.nodes, s.threads, duration_text(steps * seconds));
-  fmt::print("memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s),
-             1e-6 * bytes_per_node(s) * s.order.nodes);
-  for (const std::string& f : loaded.scene.output.fields) fmt::print(" {}", f);
-  fmt::print("\nnot paid for by this scene:\n");
-  for (const std::string& f : fields_left_out(loaded.scene)) fmt::print("  {}\n", f);
+    print(stdout, "about {:.0f} steps of {:.3e} s; {:.0f} ns per node-step on {} threads: {} without output\n", steps,
+          dt, 1e9 * seconds / s.order.nodes, s.threads, duration_text(steps * seconds));
+  print(stdout, "memory {:.0f} bytes a node, {:.1f} MB\nfields:", bytes_per_node(s),
+        1e-6 * bytes_per_node(s) * s.order.nodes);
+  for (const std::string& f : loaded.scene.output.fields) print(stdout, " {}", f);
+  print(stdout, "\nnot paid for by this scene:\n");
+  for (const std::string& f : fields_left_out(loaded.scene)) print(stdout, "  {}\n", f);
   return 0;
 }
 

@@ -27,6 +27,7 @@ double since(Clock::time_point start) { return std::chrono::duration<double>(Clo
   ::setpgid(0, 0);
   ::prctl(PR_SET_PDEATHSIG, SIGTERM);
   if (::getppid() != parent) ::_exit(127);  // it died meanwhile
+  std::signal(SIGPIPE, SIG_DFL);            // which this program ignores
   ::dup2(log, 1), ::dup2(log, 2);
   ::execv(argv[0], argv);
   const char* why = std::strerror(errno);

@@ -3,8 +3,10 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
+#include <cstring>
 
 #include "io/check.hpp"
+#include "io/print.hpp"
 #include "io/provenance.hpp"
 #include "io/results/results_folder.hpp"
 #include "io/run.hpp"
@@ -18,14 +20,15 @@ std::string version_text() {
 }
 
 int list_errors(const std::vector<std::string>& errors) {
-  for (const std::string& e : errors) fmt::print(stderr, "{}\n", e);
-  fmt::print(stderr, "{} error{}: nothing was run or written\n", errors.size(), errors.size() == 1 ? "" : "s");
+  for (const std::string& e : errors) nanson::print(stderr, "{}\n", e);
+  nanson::print(stderr, "{} error{}: nothing was run or written\n", errors.size(), errors.size() == 1 ? "" : "s");
   return 2;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  nanson::open_standard_streams();
   CLI::App app{"nanson: fast large-strain solid dynamics on tetrahedra"};
   app.set_version_flag("--version", version_text());
   app.require_subcommand(1);
@@ -44,6 +47,7 @@ int main(int argc, char** argv) {
   };
   CLI::App* run = common(app.add_subcommand("run", "run a scene; results in results/SCENE/ or in --out DIR"));
   run->add_option("--out", out, "folder for the results");
+  run->add_flag("--force", options.force, "replace earlier results, which otherwise move to DIR.1, DIR.2, ...");
   run->add_flag("--quiet", options.quiet, "only errors and warnings");
   CLI::App* study = app.add_subcommand("study",
                                        "run all scenes of a study, one after another; goes on where it stopped; "
@@ -59,19 +63,23 @@ int main(int argc, char** argv) {
   }
   try {
     std::vector<std::string> errors;
-    if (!out.empty()) options.out = out;
+    if ((study->parsed() ? study : run)->count("--out") > 0) options.out = out;
     if (study->parsed()) {
       const int code = nanson::run_study(scene, options.out, errors);
       return errors.empty() ? code : list_errors(errors);
     }
     const auto loaded = nanson::load(scene, settings, errors);
     if (!loaded) return list_errors(errors);
-    return check->parsed() ? nanson::check_scene(*loaded, options.threads) : nanson::run_scene(*loaded, options);
+    if (!check->parsed()) return nanson::run_scene(*loaded, options);
+    const int code = nanson::check_scene(*loaded, options.threads);
+    if (const int lost = nanson::lost_output(); lost != 0)
+      throw std::runtime_error(fmt::format("the standard output could not be written: {}", std::strerror(lost)));
+    return code;
   } catch (const nanson::FolderError& e) {
-    fmt::print(stderr, "{}\n", e.what());
+    nanson::print(stderr, "{}\n", e.what());
     return 2;
   } catch (const std::exception& e) {
-    fmt::print(stderr, "nanson: {}\n", e.what());
+    nanson::print(stderr, "nanson: {}\n", e.what());
     return 1;
   }
 }

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/print.hpp"
+
 namespace nanson {
 namespace {
 
@@ -19,8 +21,10 @@ constexpr std::string_view clear_line = "\r\033[K";
 Progress::Progress(double t0, double t1, bool quiet, std::FILE* to, Clock::time_point start)
     : t0_(t0), t1_(t1), quiet_(quiet), to_(to), terminal_(::isatty(::fileno(to)) == 1), shown_(start), shown_t_(t0) {}
 
-Progress::~Progress() {
+void Progress::end() {
   if (!line_.empty()) std::fputs("\n", to_);
+  std::fflush(to_);
+  line_.clear();
 }
 
 bool Progress::due(double t, Clock::time_point now) const {
@@ -39,14 +43,16 @@ void Progress::update(long step, double t, double dt, std::optional<double> clos
   const std::string balance = closure ? fmt::format("  dE/E {:+.1e}", *closure) : "";
   const std::string line = fmt::format("{:5.1f} %  step {:>8}  t {:.4e} s  dt {:.2e} s{}  ETA {}", 100 * share(t), step,
                                        t, dt, balance, duration_text((t1_ - t) / rate_));
-  fmt::print(to_, "{}{}{}", terminal_ ? clear_line : "", line, terminal_ ? "" : "\n");
+  const std::string drawn = fmt::format("{}{}{}", terminal_ ? clear_line : "", line, terminal_ ? "" : "\n");
+  std::fputs(drawn.c_str(), to_);
   std::fflush(to_);
   if (terminal_) line_ = line;
 }
 
 void Progress::message(std::string_view text) {
-  if (line_.empty()) fmt::print(to_, "{}\n", text);
-  else fmt::print(to_, "{}{}\n{}", clear_line, text, line_);
+  const std::string shown = printable(text);
+  const std::string drawn = line_.empty() ? shown + "\n" : fmt::format("{}{}\n{}", clear_line, shown, line_);
+  std::fputs(drawn.c_str(), to_);
   std::fflush(to_);
 }
 

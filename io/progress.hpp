@@ -14,7 +14,7 @@ class Progress {
 
   /// Simulated time runs from t0 to t1; `quiet` shows nothing but messages.
   Progress(double t0, double t1, bool quiet, std::FILE* to = stderr, Clock::time_point start = Clock::now());
-  ~Progress();
+  ~Progress() { end(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
@@ -23,6 +23,9 @@ class Progress {
 
   /// A line of its own, above the progress line; shown with `quiet` too.
   void message(std::string_view text);
+
+  /// Leaves the progress line as it stands: what comes next begins on a line of its own.
+  void end();
 
  private:
   bool due(double t, Clock::time_point now) const;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "io/print.hpp"
 #include "io/text_file.hpp"
 
 namespace nanson {
@@ -75,7 +76,10 @@ std::optional<CsvTable> read_csv(const std::filesystem::path& file, std::string&
 std::string csv_text(std::string text) {
   if (!text.empty() && std::string_view("=+-@\t\r").find(text[0]) != std::string_view::npos && !is_number(text))
     text = '\'' + text;
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\r' || c == '\n' || c == '\t'; }, ' ');
+  text = printable(text);
+  if (text.find_first_of(",\"") == std::string::npos) return text;
   std::string quoted = "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);
   return quoted + '"';

@@ -8,6 +8,7 @@
 #include "engine/summarise.hpp"
 #include "engine/throughput.hpp"
 #include "io/peak_memory.hpp"
+#include "io/print.hpp"
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
 #include "io/results/results_folder.hpp"
@@ -21,7 +22,7 @@ namespace {
 
 void say(const RunOptions& options, const std::string& line) {
   if (!options.quiet) {
-    fmt::print("{}\n", line);
+    print(stdout, "{}\n", line);
     std::fflush(stdout);
   }
 }
@@ -80,8 +81,9 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   Simulation s = make_simulation(scene, loaded.mesh, options.threads);
   s.setup.add("mesh", loaded.mesh_s);
   const std::vector<Probe> probes = place_probes(scene, loaded.mesh);
-  const std::vector<std::string> replaced = folder.begin();
-  if (!replaced.empty()) say(options, fmt::format("replaces an earlier run's {}", fmt::join(replaced, " ")));
+  const std::string earlier = folder.begin(options.force);
+  if (!earlier.empty() && !options.force) print(stderr, "{}\n", earlier);  // with `quiet` too
+  else if (!earlier.empty()) say(options, earlier);
   print_start(options, s, probes, folder.path());
 
   const Provenance from = provenance();
@@ -120,6 +122,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
     write_summary(folder.path() / "summary.json", summary, from);
   }
   if (!reason.empty()) progress.message(status + ": " + reason);
+  progress.end();
   say(options, closing_line(summary));
   return status == "breakdown" ? 3 : stop_signal() ? 128 + stop_signal() : 0;
 }

@@ -11,6 +11,7 @@ struct RunOptions {
   int threads = 1;
   std::optional<std::filesystem::path> out;
   bool quiet = false;
+  bool force = false;  // replaces earlier results instead of moving them aside
 };
 
 /// Exit code: 0 done, 3 the solution broke down, 128 + n ended by signal n.

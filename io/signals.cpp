@@ -7,7 +7,7 @@
 namespace nanson {
 namespace {
 
-constexpr std::array stopping{SIGINT, SIGTERM, SIGXCPU};
+constexpr std::array stopping{SIGINT, SIGTERM, SIGHUP, SIGXCPU};
 volatile std::sig_atomic_t received = 0;
 volatile std::sig_atomic_t caught[stopping.size()] =
     {};  // those that were not ignored when the run began (nohup, background jobs)

@@ -3,7 +3,7 @@
 
 namespace nanson {
 
-/// SIGINT, SIGTERM and SIGXCPU are noted; the next one of them has its default action (ends the program at once). One that was ignored stays ignored.
+/// SIGINT, SIGTERM, SIGHUP and SIGXCPU are noted; the next one of them has its default action (ends the program at once). One that was ignored stays ignored.
 /// SIGXFSZ is ignored, so that a write beyond the file size limit fails with a reason instead of ending the program.
 void catch_stop_signals();
 

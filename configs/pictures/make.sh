@@ -1,7 +1,7 @@
 #!/bin/sh -e
 # Runs the scenes and renders every picture of this folder, about 180 CPU seconds, most of them for the finest stent. Needs gmsh, gnuplot, python3-h5py and python3-numpy.
 cd "$(dirname "$0")/../.."
-run() { name=$1; scene=$2; shift 2; ./nanson run "configs/$scene.toml" --threads 1 --quiet --out "results/pictures/$name" "$@"; }
+run() { name=$1; scene=$2; shift 2; ./nanson run "configs/$scene.toml" --threads 1 --quiet --force --out "results/pictures/$name" "$@"; }
 r=results/pictures p=configs/pictures
 run cube low_dispersion_cube --set mesh.cells=[12,12,12]
 run plate beryllium_plate --set output.history_every=2

@@ -1,4 +1,4 @@
-// Creating, locking and clearing the folder, each refusal with its reason.
+// Creating, locking and freeing the folder, each refusal with its reason.
 #include "io/results/results_folder.hpp"
 
 #include <fmt/format.h>
@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstring>
+#include <vector>
 
 namespace nanson {
 namespace {
@@ -59,6 +60,21 @@ Descriptor lock(const fs::path& folder) {
   return file;
 }
 
+/// PATH.1, PATH.2, ...: the first that is free.
+fs::path new_folder_beside(const fs::path& path) {
+  std::error_code error;
+  const fs::path real = fs::canonical(path, error);
+  const fs::path& base = path.filename() == real.filename() ? path : real;  // not so: a/ . .. and links
+  for (long number = 1;; ++number) {
+    fs::path beside = base;
+    beside += fmt::format(".{}", number);
+    if (fs::create_directory(beside, error)) return beside;
+    if (error && !fs::exists(fs::symlink_status(beside)))
+      throw FolderError(fmt::format("{}: earlier results cannot be moved to {}: {}; --force replaces them",
+                                    path.string(), beside.string(), error.message()));
+  }
+}
+
 }  // namespace
 
 ResultsFolder::ResultsFolder(const std::string& scene, const std::optional<fs::path>& out)
@@ -67,19 +83,33 @@ ResultsFolder::ResultsFolder(const std::string& scene, const std::optional<fs::p
   lock_ = lock(path_);
 }
 
-std::vector<std::string> ResultsFolder::begin() {
-  std::vector<std::string> removed;
+std::string ResultsFolder::begin(bool force) {
+  std::vector<std::string> found;
   for (const char* name : result_files) {
     const fs::path file = path_ / name;
     std::error_code error;
-    if (fs::is_directory(fs::symlink_status(file, error)))
+    const fs::file_status status = fs::symlink_status(file, error);
+    if (fs::is_directory(status))
       throw FolderError(fmt::format("{}: is a folder, where results are to be written", file.string()));
-    if (fs::remove(file, error)) removed.emplace_back(name);
-    if (error)
-      throw FolderError(
-          fmt::format("{}: an earlier run's file could not be removed: {}", file.string(), error.message()));
+    if (fs::exists(status)) found.emplace_back(name);
   }
-  return removed;
+  if (found.empty()) return "";
+  std::error_code error;
+  if (force) {
+    for (const std::string& name : found)
+      if (!fs::remove(path_ / name, error) && error)
+        throw FolderError(fmt::format("{}: an earlier run's file could not be removed: {}", (path_ / name).string(),
+                                      error.message()));
+    return fmt::format("replaces an earlier run's {}", fmt::join(found, " "));
+  }
+  const fs::path kept = new_folder_beside(path_);
+  for (const std::string& name : found) {
+    fs::rename(path_ / name, kept / name, error);
+    if (error)
+      throw FolderError(fmt::format("{}: an earlier run's file could not be moved to {}: {}; --force replaces it",
+                                    (path_ / name).string(), kept.string(), error.message()));
+  }
+  return fmt::format("earlier results moved to {}", kept.string());
 }
 
 }  // namespace nanson

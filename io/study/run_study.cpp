@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "io/child_process.hpp"
+#include "io/print.hpp"
 #include "io/progress.hpp"
 #include "io/replace_file.hpp"
 #include "io/results/read_summary.hpp"
@@ -94,6 +95,18 @@ std::optional<RunOutcome> finished(const fs::path& folder, const StudyRun& run, 
   }
 }
 
+/// Says so when table and page in the folder were made from another study file: they are made anew, its runs stay.
+void keep_study_text(const fs::path& folder, const fs::path& file) {
+  const fs::path kept = folder / "study.toml";
+  std::string why;
+  const std::string now = read_text_file(file, why).value_or("");
+  const auto before = read_text_file(kept, why);
+  if (before && *before != now)
+    print(stderr, "the study file has changed since {} and report.html were made: both are made anew, runs stay\n",
+          (folder / "runs.csv").string());
+  replace_file(kept, now);
+}
+
 /// Seconds to go, when the runs so far took as long for their cost as the rest will.
 std::string time_left(const StudyResults& all, std::size_t next) {
   double cost = 0, seconds = 0, left = 0;
@@ -111,8 +124,8 @@ std::string time_left(const StudyResults& all, std::size_t next) {
 void print_result(const StudyRunResult& r) {
   const Judgement& j = r.judgement;
   const bool cut = j.reason.size() > 160;
-  fmt::print(stderr, "{}{}{}{}{}", r.reused ? "made before, " : "", word(j.verdict), j.reason.empty() ? "" : ": ",
-             j.reason.substr(0, 160), cut ? " ..." : "");
+  print(stderr, "{}{}{}{}{}", r.reused ? "made before, " : "", word(j.verdict), j.reason.empty() ? "" : ": ",
+        j.reason.substr(0, 160), cut ? " ..." : "");
 }
 
 /// 0, or the signal that ended the study.
@@ -121,28 +134,29 @@ int make_runs(StudyResults& all, const std::string& program) {
   for (std::size_t i = 0; i < all.runs.size(); ++i) {
     const StudyRun& run = all.runs[i];
     const fs::path folder = all.folder / "runs" / run.hash;
-    fmt::print(stderr, "[{}/{}] {}: ", i + 1, all.runs.size(), run.plan.label);
+    print(stderr, "[{}/{}] {}: ", i + 1, all.runs.size(), run.plan.label);
     if (auto before = finished(folder, run, program, max_wall_s)) {
       all.results[i] = assess(run, std::move(*before));
       all.results[i].reused = true;
     } else {
       fs::create_directories(folder);
+      if (fs::exists(folder / "summary.json")) print(stderr, "made again: ");
       fs::remove(folder / record_name);
       fs::remove(folder / "summary.json");  // a child that dies early must not inherit them
       fs::remove(folder / "history.csv");
       std::vector<std::string> command{own_program};
       command.insert(command.end(), run.arguments.begin(), run.arguments.end());
-      command.insert(command.end(), {"--quiet", "--out", folder.string()});
+      command.insert(command.end(), {"--quiet", "--force", "--out", folder.string()});
       const ChildEnd end = run_child(command, folder / "log.txt", {max_wall_s, 30}, stop_signal);
       if (end.stopped != 0 || stop_signal() != 0) {
-        fmt::print(stderr, "stopped\n");
+        print(stderr, "stopped\n");
         return stop_signal();
       }
       all.results[i] = assess(run, outcome_in(folder, end.code, end.too_slow, end.wall_s));
       if (end.code == 0 || end.code == 3 || end.too_slow) write_record(folder, run, end, program, max_wall_s);
     }
     print_result(all.results[i]);
-    fmt::print(stderr, "; {}, ETA {}\n", duration_text(all.results[i].outcome.wall_s), time_left(all, i + 1));
+    print(stderr, "; {}, ETA {}\n", duration_text(all.results[i].outcome.wall_s), time_left(all, i + 1));
     find_rates(all);
     replace_file(all.folder / "runs.csv", study_csv(all));
     if (stop_signal() != 0) return stop_signal();
@@ -170,14 +184,15 @@ int run_study(const fs::path& file, const std::optional<fs::path>& out, std::vec
   // Of the children, as in the launcher: their threads spin for a short time, then sleep.
   if (std::getenv("OMP_WAIT_POLICY") == nullptr) ::setenv("GOMP_SPINCOUNT", "1000", 0);
   ::setenv("OMP_WAIT_POLICY", "passive", 0);
-  fmt::print(stderr, "{}: {} runs, {} thread{} each, results: {}\n", read.study.name, all.runs.size(),
-             read.study.threads, read.study.threads == 1 ? "" : "s", all.folder.string());
+  print(stderr, "{}: {} runs, {} thread{} each, results: {}\n", read.study.name, all.runs.size(), read.study.threads,
+        read.study.threads == 1 ? "" : "s", all.folder.string());
+  keep_study_text(all.folder, file);
   catch_stop_signals();
   const int stopped = make_runs(all, program_identity(all.from));
   find_rates(all);
-  for (const std::string& line : write_study(all)) fmt::print(stderr, "{}\n", line);
+  for (const std::string& line : write_study(all)) print(stderr, "{}\n", line);
   if (stopped != 0)
-    fmt::print(stderr, "{} of {} runs done; the same command goes on from there\n", all.done(), all.runs.size());
+    print(stderr, "{} of {} runs done; the same command goes on from there\n", all.done(), all.runs.size());
   return stopped != 0 ? 128 + stopped : 0;
 }
 

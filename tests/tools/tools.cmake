@@ -27,6 +27,8 @@ add_test(NAME Provenance.ScriptWithoutGitAndWithoutChange
 if(NANSON_PYTHON)
   add_test(NAME Pages
            COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/check_pages.py ${CMAKE_CURRENT_SOURCE_DIR} $<TARGET_FILE:nanson>)
+  add_test(NAME Program.Faults
+           COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/faults_test.py $<TARGET_FILE:nanson>)
   add_test(NAME Study.EndToEnd
            COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/study_test.py $<TARGET_FILE:nanson> ${CMAKE_CURRENT_SOURCE_DIR})
   find_program(NANSON_CHROMIUM NAMES chromium chromium-browser google-chrome)

@@ -76,6 +76,8 @@ TEST(Progress, ATerminalLineIsRedrawnFiveTimesASecondAndEndsInItsFinalState) {
     for (int i = 1; i <= 99; ++i) progress.update(i, i * 1e-2, 1e-2, {}, after(i * 1e-2));
     progress.message("a message");
     for (int i = 0; i < 2; ++i) progress.update(100, 1.0, 1e-2, {}, after(1.0));
+    progress.end();
+    std::fputs("done\n", terminal.get());
   }
   std::string text;
   for (char c = 0; ::read(controller, &c, 1) == 1;) text += c;  // until the other end is closed: it arrives in pieces
@@ -85,7 +87,8 @@ TEST(Progress, ATerminalLineIsRedrawnFiveTimesASecondAndEndsInItsFinalState) {
   EXPECT_EQ(drawn, 6u) << text;  // at 0.2, 0.4, 0.6, 0.8 s, again below the message, and at the end
   EXPECT_EQ(text.rfind("\r\033[K100.0 %"), text.rfind("\033[K") - 1) << text;
   EXPECT_NE(text.find("\r\033[Ka message\r\n 8"), std::string::npos) << text;
-  EXPECT_EQ(text.substr(text.size() - 2), "\r\n");
+  EXPECT_NE(text.find("ETA 0s\r\ndone\r\n"), std::string::npos) << text;
+  EXPECT_EQ(text.substr(text.size() - 6), "done\r\n");
 }
 
 TEST(Progress, DurationsAreShort) {

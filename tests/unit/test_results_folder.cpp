@@ -43,17 +43,48 @@ TEST(ResultsFolder, IsNamedAfterTheSceneUnlessTheUserNamesOne) {
               "the scene's name \"" + std::string(name) + "\" cannot be the name of a folder; name one with --out");
 }
 
-TEST(ResultsFolder, OnlyBeginRemovesAndOnlyWhatARunWrites) {
+TEST(ResultsFolder, EarlierResultsMoveAsideAndNothingElse) {
+  const test::TemporaryFolder folder;
+  const fs::path beam = folder / "beam";
+  for (int run = 0; run < 3; ++run) {
+    ResultsFolder results("beam", beam / "");
+    const std::string kept = beam.string() + "." + std::to_string(run);
+    EXPECT_EQ(results.begin(false), run == 0 ? "" : "earlier results moved to " + kept);
+    EXPECT_EQ(results.begin(false), "");
+    for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json"}) {
+      EXPECT_FALSE(fs::exists(beam / name)) << name;
+      test::write_text(beam / name, std::to_string(run));
+      for (int before = 0; before < run; ++before)
+        EXPECT_EQ(test::read_text(beam.string() + "." + std::to_string(before + 1) + "/" + name),
+                  std::to_string(before));
+    }
+    test::write_text(beam / "notes.txt", "mine");
+  }
+  EXPECT_FALSE(fs::exists(beam.string() + ".1/notes.txt"));
+}
+
+TEST(ResultsFolder, TheCurrentFolderItselfKeepsEarlierResultsBesideIt) {
+  const test::TemporaryFolder folder;
+  fs::create_directory(folder / "here");
+  const CurrentFolder here(folder / "here");
+  test::write_text("summary.json", "old");
+  EXPECT_EQ(ResultsFolder("beam", ".").begin(false),
+            "earlier results moved to " + (fs::canonical(folder.path()) / "here.1").string());
+  EXPECT_EQ(test::read_text(folder / "here.1/summary.json"), "old");
+}
+
+TEST(ResultsFolder, ForceRemovesOnlyWhatARunWrites) {
   const test::TemporaryFolder folder;
   for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json", "notes.txt", "run.vtkhdf.old"})
     test::write_text(folder / name, "old");
   ResultsFolder results("beam", folder.path());
   EXPECT_EQ(test::read_text(folder / "run.vtkhdf"), "old");
-  EXPECT_EQ(results.begin(), (std::vector<std::string>{"summary.json", "history.csv", "run.xdmf", "run.vtkhdf"}));
+  EXPECT_EQ(results.begin(true), "replaces an earlier run's summary.json history.csv run.xdmf run.vtkhdf");
   for (const char* name : {"run.vtkhdf", "run.xdmf", "history.csv", "summary.json"})
     EXPECT_FALSE(fs::exists(folder / name)) << name;
   for (const char* name : {"notes.txt", "run.vtkhdf.old"}) EXPECT_EQ(test::read_text(folder / name), "old");
-  EXPECT_TRUE(results.begin().empty());
+  EXPECT_TRUE(results.begin(true).empty());
+  EXPECT_FALSE(fs::exists(folder.path().string() + ".1"));
 }
 
 TEST(ResultsFolder, ASecondRunIsRefusedWhileTheFirstOneLives) {
@@ -97,7 +128,7 @@ TEST(ResultsFolder, AFolderInPlaceOfAResultIsNotRemoved) {
   const test::TemporaryFolder folder;
   fs::create_directory(folder / "run.vtkhdf");
   ResultsFolder results("beam", folder.path());
-  EXPECT_EQ(refusal([&] { results.begin(); }),
+  EXPECT_EQ(refusal([&] { results.begin(false); }),
             (folder / "run.vtkhdf").string() + ": is a folder, where results are to be written");
   EXPECT_TRUE(fs::exists(folder / "run.vtkhdf"));
 }

@@ -11,8 +11,8 @@ namespace nanson {
 namespace {
 
 TEST(Signals, TheFirstIsNotedAndTheSecondEndsTheProgram) {
-  for (const int first : {SIGINT, SIGTERM, SIGXCPU})
-    for (const int second : {SIGINT, SIGTERM, SIGXCPU})
+  for (const int first : {SIGINT, SIGTERM, SIGHUP, SIGXCPU})
+    for (const int second : {SIGINT, SIGTERM, SIGHUP, SIGXCPU})
       EXPECT_EQ(test::run_child([=] {
                   const rlimit no_core{0, 0};
                   ::setrlimit(RLIMIT_CORE, &no_core);

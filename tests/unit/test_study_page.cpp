@@ -116,7 +116,8 @@ TEST(StudyTable, NoCellIsAFormula) {
   EXPECT_EQ(csv_text("=1+1"), "'=1+1");
   EXPECT_EQ(csv_text("@SUM(A1,A2)"), "\"'@SUM(A1,A2)\"");
   EXPECT_EQ(csv_text("-x"), "'-x");
-  EXPECT_EQ(csv_text("\tx"), "'\tx");
+  EXPECT_EQ(csv_text("\tx"), "' x");
+  EXPECT_EQ(csv_text("\x1b[31mred\n"), "\\x1b[31mred ");
   for (const char* number : {"-5", "+1e-3", "-inf", "-0.25"}) EXPECT_EQ(csv_text(number), number);
 }
 
