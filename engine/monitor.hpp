@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "engine/solver.hpp"
+#include "engine/simulation.hpp"
 
 namespace nanson {
 
@@ -34,16 +34,16 @@ struct Geometry {
   double min_detF_over_J = 1, max_detF_over_J = 1;  // [-] pFJ, pFHJ
 };
 
-Energies energies(Simulation& s);
-Momenta momenta(Simulation& s);
+Energies energies(const Simulation& s);
+Momenta momenta(const Simulation& s);
 Extrema extrema(const Simulation& s);
 
-EntropyProduction entropy_production(Simulation& s);
-Involutions involutions(Simulation& s);
+EntropyProduction entropy_production(const Simulation& s);
+Involutions involutions(const Simulation& s);
 Geometry geometry(const Simulation& s);
 
 /// F - grad x, 9 a row: what a run with monitor.involutions keeps of its start.
-std::vector<double> gradient_mismatch(Simulation& s);
+Aligned<double> gradient_mismatch(const Simulation& s);
 /// A sentence when det F/J has left 0.5 to 2.
 std::optional<std::string> geometry_warning(const Simulation& s);
 
@@ -52,9 +52,9 @@ std::optional<std::string> geometry_warning(const Simulation& s);
 double energy_closure(const Simulation& s, const Energies& e);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
-double linear_momentum_drift(Simulation& s);  // NaN where it is not known (initial.field = "manufactured")
+double linear_momentum_drift(const Simulation& s);  // NaN where it is not known (initial.field = "manufactured")
 /// |L - L(0) - angular impulse| / sum Omega |x| |p|; nothing under ssp_rk3 when supports or loads exert a torque: its exact arms are known for TVD-RK2 only.
-std::optional<double> angular_momentum_drift(Simulation& s);
+std::optional<double> angular_momentum_drift(const Simulation& s);
 
 /// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
 Vec3 reaction(const Simulation& s, int face);
@@ -62,7 +62,7 @@ Vec3 reaction(const Simulation& s, int face);
 /// Checkerboard measure of the swept pressure: sqrt(sum W (p_b - p_a - (g_a + g_b)/2 . D)^2 / sum W (p_b - p_a)^2) over the edges, W = |C|/|D|, g the Green-Gauss
 /// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11). With several materials only edges between nodes
 /// count whose neighbours are all of the same one; NaN where none has a difference of pressure.
-double checkerboard(Simulation& s);
+double checkerboard(const Simulation& s);
 
 /// One stage's share of dissipation, whose power the edge loops have left in part_sums, and of external work, from the rows that the stage took its rates of.
 void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
@@ -72,8 +72,8 @@ void book_stage(Simulation& s, const double* arms, double mean, bool first);
 void book_plastic_work(Simulation& s);
 
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
-Breakdown locate_breakdown(Simulation& s, int stage);
-Breakdown collapse(Simulation& s, double allowed);
+Breakdown locate_breakdown(const Simulation& s, int stage);
+Breakdown collapse(const Simulation& s, double allowed);
 /// A sentence when the total energy has exceeded initial + external work by more than monitor.energy_tolerance for some steps.
 std::optional<std::string> energy_growth(Simulation& s);
 

@@ -5,7 +5,7 @@
 
 namespace nanson {
 
-Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::string& status,
+Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const std::string& status,
                   const std::string& reason);
 
 /// The closing line: scheme, nodes, steps, wall, ns per node-step, errors if an exact solution is known, energy closure.

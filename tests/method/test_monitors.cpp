@@ -79,7 +79,7 @@ TEST(Involutions, OfAFieldWrittenByHandAreItsDefects) {
   EXPECT_LT(involutions(s).J, 1e-15);
   U_of(s, 7)[3] += 0.25;
   EXPECT_NEAR(involutions(s).J, 0.25, 1e-14);
-  s.state.H[0][row::H * s.order.row_of[3] + 5] += 0.125;
+  s.state.H[0][row::H * s.domain.order.row_of[3] + 5] += 0.125;
   EXPECT_NEAR(involutions(s).H, 0.125, 1e-14);
   U_of(s, 9)[4] += 0.5;
   EXPECT_NEAR(involutions(s).F, 0.5, 1e-12);
