@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "engine/simulation.hpp"
+#include "engine/solver.hpp"
 
 namespace nanson {
 

@@ -1,9 +1,6 @@
 // What the sweeps of a run made of the machine, by the byte and flop model of engine/work.hpp.
 #pragma once
-#include <optional>
-
-#include "engine/simulation.hpp"
-#include "engine/summary.hpp"
+#include "engine/solver.hpp"
 
 namespace nanson {
 
