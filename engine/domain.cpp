@@ -61,6 +61,7 @@ Domain make_domain(const Scene& scene, const Mesh& mesh, Clock& setup) {
     d.coefficients = coefficients_of(scene, d.order);
     d.rings = make_tet_rings(scene.physics.description, mesh, d.order);
     d.projection = make_projection_setup(scene, d.order, d.boundary, d.X, d.coefficients.material);
+    if (scene.monitor.geometry != GeometryWatch::off) d.tets = make_tets(mesh, d.order, d.X);
     d.manufactured = make_manufactured(scene, mesh, d.order);
     const Materials several = d.mixture.materials();
     const bool audits = scene.monitor.energy;

@@ -9,6 +9,7 @@
 #include "engine/mixture.hpp"
 #include "engine/projection.hpp"
 #include "engine/registry.hpp"
+#include "engine/tets.hpp"
 
 namespace nanson {
 
@@ -23,6 +24,7 @@ struct Domain {
   Aligned<double> lambda;       // weights of the pseudo-Laplacian, jst only
   Boundary boundary;
   Mixture mixture;                            // several materials only
+  Tets tets;                                  // empty where nobody looks at them
   TetRings rings;                             // current areas only
   ProjectionSetup projection;                 // pFp only
   Manufactured manufactured;                  // its body force; empty in all other scenes

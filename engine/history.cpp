@@ -27,8 +27,9 @@ void add_monitor_columns(const Scene& scene, std::vector<HistoryColumn>& c) {
   if (m.involutions) c.push_back({"involution_F", "-"});
   if (m.involutions && f == Formulation::pFHJ) c.push_back({"involution_H", "-"});
   if (m.involutions && evolves_J(f)) c.push_back({"involution_J", "-"});
-  if (m.geometry) c.push_back({"min_tet_ratio", "-"});
-  if (m.geometry && evolves_J(f)) c.insert(c.end(), {{"min_detF_over_J", "-"}, {"max_detF_over_J", "-"}});
+  if (m.geometry != GeometryWatch::off) c.push_back({"min_tet_ratio", "-"});
+  if (m.geometry != GeometryWatch::off && evolves_J(f))
+    c.insert(c.end(), {{"min_detF_over_J", "-"}, {"max_detF_over_J", "-"}});
 }
 
 void add_monitor_values(const Simulation& s, std::vector<double>& row) {
@@ -44,11 +45,10 @@ void add_monitor_values(const Simulation& s, std::vector<double>& row) {
     if (f == Formulation::pFHJ) row.push_back(i.H);
     if (evolves_J(f)) row.push_back(i.J);
   }
-  if (m.geometry) {
-    const Geometry g = geometry(s);
-    row.push_back(g.min_tet_ratio);
-    if (evolves_J(f)) row.insert(row.end(), {g.min_detF_over_J, g.max_detF_over_J});
-  }
+  if (m.geometry == GeometryWatch::off) return;
+  const Extrema& x = seen(s).extrema;
+  row.push_back(x.min_tet_ratio);
+  if (evolves_J(f)) row.insert(row.end(), {x.min_detF_over_J, x.max_detF_over_J});
 }
 
 }  // namespace
@@ -91,9 +91,8 @@ std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vecto
 }
 
 std::vector<double> history_row(const Simulation& s, const std::vector<Probe>& probes) {
-  const Energies e = energies(s);
+  const auto [e, x] = seen(s);
   const Momenta m = momenta(s);
-  const Extrema x = extrema(s);
   std::vector<double> row{static_cast<double>(s.state.step), s.state.t, s.state.dt, e.kinetic, e.strain};
   if (s.domain.scene->monitor.energy)
     row.insert(row.end(), {s.books.external_work, s.books.dissipated, energy_closure(s, e)});

@@ -25,6 +25,7 @@ enum class TimeKind { constant, ramp, sine, pulse, logistic, table };
 enum class Integrator { tvd_rk2, ssp_rk3 };
 enum class StepRule { dual, edge, paper };
 enum class EnergyGrowth { warn, stop };
+enum class GeometryWatch { off, warn, stop };
 enum class ProjectionSolver { cg, pseudo_time };
 enum class OnLimit { stop, warn };
 
@@ -49,6 +50,7 @@ constexpr auto words(StepRule) { return std::array<std::string_view, 3>{"dual", 
 constexpr auto words(ProjectionSolver) { return std::array<std::string_view, 2>{"cg", "pseudo_time"}; }
 constexpr auto words(OnLimit) { return std::array<std::string_view, 2>{"stop", "warn"}; }
 constexpr auto words(EnergyGrowth) { return std::array<std::string_view, 2>{"warn", "stop"}; }
+constexpr auto words(GeometryWatch) { return std::array<std::string_view, 3>{"off", "warn", "stop"}; }
 
 /// A name that can only be checked against the mesh, with the place in the scene file that says it ("file:line:column").
 struct Named {
@@ -182,9 +184,9 @@ struct OutputSpec {
 
 struct MonitorSpec {
   bool energy = false;
-  bool entropy = false;      // production of every edge; upwind only
-  bool involutions = false;  // F - grad x, H - cof F, J - det F
-  bool geometry = false;     // tet volumes, det F/J
+  bool entropy = false;                          // production of every edge; upwind only
+  bool involutions = false;                      // F - grad x, H - cof F, J - det F
+  GeometryWatch geometry = GeometryWatch::warn;  // tets turned inside out, det F apart from J
   EnergyGrowth energy_growth = EnergyGrowth::warn;
   double energy_tolerance = 0.01;  // share of the initial energy
 };

@@ -7,13 +7,14 @@
 #include "engine/books.hpp"
 #include "engine/state.hpp"
 #include "engine/team.hpp"
+#include "engine/watch.hpp"
 
 namespace nanson {
 
 struct Breakdown {
   int node = -1;           // of the mesh
   std::string text;        // where, when and why
-  std::string_view cause;  // detF | J | not_finite | dt_collapse | energy_growth | iteration_limit
+  std::string_view cause;  // detF | J | inverted_tet | not_finite | dt_collapse | energy_growth | iteration_limit
 };
 
 struct Simulation {
@@ -23,7 +24,7 @@ struct Simulation {
   mutable Team team;  // what sums over parts need: who only looks takes it too
   std::optional<Breakdown> breakdown;
   std::string_view stopped_by;  // max_steps | max_wall_s | signal
-  std::string warning;          // the first one that a run should show
+  Watch watch;
 };
 
 /// Bytes a node of everything that a step reads or writes.

@@ -129,6 +129,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk) {
       if (!projected) u.reports[p] = stress_of_part(d, p, mine, k, scratch);
     });
   });
+  book_loads(s, rows, rk.mean * u.dt);
   if (d.scene->monitor.energy) s.team.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * u.dt); });
   if (keeps && !broken(s))
     s.team.clock.time("keep_angular_momentum", [&] {
@@ -169,17 +170,16 @@ std::string judge_step(Simulation& s, const std::function<std::string()>& asked_
     reason = s.breakdown->text;
     return "breakdown";
   }
-  if (s.domain.scene->monitor.energy && s.state.step % s.domain.scene->output.history_every == 0)
-    if (auto grown = energy_growth(s)) {
-      if (s.domain.scene->monitor.energy_growth == EnergyGrowth::warn) s.warning = *grown;
-      else {
-        s.breakdown = Breakdown{-1, *grown, "energy_growth"};
-        reason = *grown;
-        return "breakdown";
-      }
+  if (s.state.step % s.domain.scene->output.history_every == 0 || s.state.t >= time.end) {
+    s.team.clock.time("watch", [&] {
+      look(s);
+      s.breakdown = ruin(s);
+    });
+    if (s.breakdown) {
+      reason = s.breakdown->text;
+      return "breakdown";
     }
-  if (s.domain.scene->monitor.geometry && s.warning.empty() && s.state.step % s.domain.scene->output.history_every == 0)
-    s.warning = geometry_warning(s).value_or("");
+  }
   if (s.state.t >= time.end) return "done";
   if (time.max_steps > 0 && s.state.step >= time.max_steps) {
     reason = "time.max_steps reached";
@@ -204,7 +204,7 @@ void advance(Simulation& s) {
     ++number;
     const std::string failure = stage(s, rk);
     const bool stop = !failure.empty() && s.domain.scene->projection.on_limit == OnLimit::stop;
-    if (!failure.empty() && !stop) s.warning = failure;
+    if (!failure.empty() && !stop) warn(s, "iteration_limit", failure);
     if (!broken(s) && !stop) continue;
     if (!rk.last) {
       u.U[0] = u.U[1];
@@ -230,6 +230,7 @@ std::string run(Simulation& s, const Observer& observer, std::string& reason) {
     s.team.cpu_s = cpu_seconds() - cpu;
   };
   std::string status = "done";
+  look(s);
   tell(observer.on_history);
   tell(observer.on_frame);
   while (status == "done" && u.t < scene.time.end) {
@@ -258,7 +259,10 @@ std::string run(Simulation& s, const Observer& observer, std::string& reason) {
     }
   }
   read_clocks();
-  if (u.last_history < u.step) tell(observer.on_history);
+  if (u.last_history < u.step) {
+    if (s.watch.step != u.step) look(s);
+    tell(observer.on_history);
+  }
   if (u.last_frame < u.step) tell(observer.on_frame);
   return status;
 }

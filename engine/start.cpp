@@ -85,6 +85,7 @@ void open_books(Simulation& s) {
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   b.initial_energy = e.kinetic + e.strain;
+  b.initial_fallen = e.fallen;
   b.initial_momentum = m.linear;
   b.initial_angular_momentum = m.angular;
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "engine/monitor.hpp"
 
 namespace nanson {
@@ -75,7 +77,7 @@ Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const s
   out.bytes_per_node = bytes_per_node(s);
   out.fields_left_out = fields_left_out(scene);
   out.state_hash = state_hash(s);
-  const Energies e = energies(s);
+  const auto [e, x] = seen(s);
   out.energy.initial = s.books.initial_energy;
   out.energy.kinetic = e.kinetic;
   out.energy.strain = e.strain;
@@ -91,7 +93,6 @@ Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const s
   out.volume = s.books.volume;
   out.angular_momentum_drift = angular_momentum_drift(s);
   out.linear_momentum_drift = linear_momentum_drift(s);
-  const Extrema x = extrema(s);
   out.min_detF = x.min_detF;
   out.max_detF = x.max_detF;
   out.errors = exact_errors(s);
@@ -104,27 +105,63 @@ Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const s
     }
   out.setup = s.team.setup.sweeps;
   out.sweeps = s.team.clock.sweeps;
-  out.checkerboard = checkerboard(s);
+  out.checkerboard = checkerboard(s).measure;
+  out.extremes = s.watch.extremes;
+  for (const Warning& w : s.watch.warnings) out.warnings.push_back(w.text);
   if (p.formulation == Formulation::pFp) out.projection = projection_summary(s);
   return out;
 }
 
-std::string closing_line(const Summary& s) {
+namespace {
+
+/// "det F 0.61 (t = 0.012 s) to 1.3 (t = 0.04 s)".
+std::string range(const char* name, const Extreme& least, const Extreme& most) {
+  return fmt::format("{} {:.3g} (t = {:.4g} s) to {:.3g} (t = {:.4g} s)", name, least.value, least.t, most.value,
+                     most.t);
+}
+
+std::string time_line(const Summary& s) {
   std::string line = fmt::format(
-      "{} {} {} {} reconstruction, flux correction {}: {} nodes, {} steps, {:.3g} s, {:.0f} ns per node-step", s.status,
-      s.formulation, s.material, s.reconstruction, s.flux_correction, s.nodes, s.steps, s.wall_s, s.ns_per_node_step);
-  for (const char* k : {"p1_L2", "P11_L2"})
-    if (const auto at = s.errors.find(k); at != s.errors.end()) line += fmt::format(", {} {:.2e}", k, at->second);
+      "{} steps in {:.3g} s on {} thread{}, {:.3g} s of processor time, {:.0f} ns a node and "
+      "step",
+      s.steps, s.wall_s, s.threads, s.threads == 1 ? "" : "s", s.cpu_s, s.ns_per_node_step);
   if (s.projection)
     line += fmt::format(", {:.1f} {} iterations a stage", s.projection->iterations_per_stage, s.projection->solver);
   if (s.throughput) line += fmt::format(", {:.1f} GF/s, {:.1f} GB/s", s.throughput->GF_s, s.throughput->GB_s);
   if (s.throughput && s.throughput->bandwidth_share)
     line += fmt::format(" ({:.0f} % of the update bandwidth)", 100 * *s.throughput->bandwidth_share);
-  if (s.peak_bytes)
-    line += fmt::format(", at most {:.4g} MB resident ({:.2f} kB a node)", 1e-6 * *s.peak_bytes,
-                        1e-3 * *s.peak_bytes / static_cast<double>(s.nodes));
-  if (s.energy.closure) line += fmt::format(", energy closure {:.1e}", *s.energy.closure);
+  if (s.peak_bytes) line += fmt::format(", at most {:.4g} MB", 1e-6 * *s.peak_bytes);
   return line;
+}
+
+std::string energy_line(const Summary& s) {
+  std::string line = fmt::format("energy: kinetic {:.4g} J, strain {:.4g} J, at the start {:.4g} J; ", s.energy.kinetic,
+                                 s.energy.strain, s.energy.initial);
+  line += s.energy.closure ? fmt::format("the balance closes to {:.1e}", *s.energy.closure)
+                           : "the balance is audited with monitor.energy = true only";
+  for (const char* k : {"p1_L2", "P11_L2"})
+    if (const auto at = s.errors.find(k); at != s.errors.end()) line += fmt::format(", error {} {:.2e}", k, at->second);
+  return line;
+}
+
+std::string geometry_line(const Summary& s) {
+  const Extremes& e = s.extremes;
+  std::string line = std::isnan(e.least_tet_ratio.value) ? "tets not looked at (monitor.geometry = \"off\")"
+                                                         : fmt::format("worst tet {:.3g} of its volume (t = {:.4g} s)",
+                                                                       e.least_tet_ratio.value, e.least_tet_ratio.t);
+  if (e.least_tet_ratio.value <= 0) line += ": INSIDE OUT";
+  line += ", " + range("det F", e.least_detF, e.most_detF);
+  if (!std::isnan(e.least_detF_over_J.value))
+    line += fmt::format(", det F/J {:.3g} to {:.3g}", e.least_detF_over_J.value, e.most_detF_over_J.value);
+  return line;
+}
+
+}  // namespace
+
+std::vector<std::string> closing_lines(const Summary& s) {
+  return {fmt::format("{} at t = {:.6g} s: {} {} {} reconstruction, flux correction {}, {} nodes", s.status, s.t_end,
+                      s.formulation, s.material, s.reconstruction, s.flux_correction, s.nodes),
+          time_line(s), energy_line(s), geometry_line(s)};
 }
 
 }  // namespace nanson

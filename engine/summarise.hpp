@@ -8,7 +8,7 @@ namespace nanson {
 Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const std::string& status,
                   const std::string& reason);
 
-/// The closing line: scheme, nodes, steps, wall, ns per node-step, errors if an exact solution is known, energy closure.
-std::string closing_line(const Summary& s);
+/// What a user wants to see at the end: status, time and scheme; steps and seconds; energy balance and errors; worst tet and det F.
+std::vector<std::string> closing_lines(const Summary& s);
 
 }  // namespace nanson

@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/watch.hpp"
+
 namespace nanson {
 
 struct EnergySummary {
@@ -67,7 +69,9 @@ struct Summary {
   std::map<std::string, double> errors;          // empty without an exact solution
   std::map<std::string, std::map<std::string, std::vector<double>>> probes;  // last values
   std::vector<SweepTime> setup, sweeps;
-  double checkerboard = 0;                      // [-] of the pressure, 0 smooth, 1 a checkerboard
+  double checkerboard = 0;  // [-] of the pressure, 0 smooth, 1 a checkerboard
+  Extremes extremes;        // over the run
+  std::vector<std::string> warnings;
   std::optional<ProjectionSummary> projection;  // pFp only
   std::optional<Throughput> throughput;         // where the model counts
 };

@@ -9,6 +9,7 @@
 #include "engine/compensated_sum.hpp"
 #include "engine/mesh/mesh_quality.hpp"
 #include "engine/monitor.hpp"
+#include "engine/pieces.hpp"
 #include "engine/solver.hpp"
 #include "io/print.hpp"
 #include "io/progress.hpp"
@@ -58,12 +59,17 @@ double timed_step(Simulation& s) {
 }  // namespace
 
 int check_scene(const Loaded& loaded, int threads) {
-  print(stdout, "{}", to_text(mesh_quality(loaded.mesh)));
+  const MeshQuality quality = mesh_quality(loaded.mesh);
+  print(stdout, "{}", to_text(quality));
   Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
   const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);
   print(stdout, "mass {:.6g} kg, initial energy {:.6g} J, {} edges, {} parts, set up in {:.2f} s\n", s.books.mass,
         s.books.initial_energy, s.domain.edges, s.domain.order.parts.size(), s.team.setup.total() + loaded.mesh_s);
   print_materials(s);
+  if (const auto large = cfl_warning(loaded.scene)) print(stdout, "warning: {}\n", *large);
+  const std::vector<Piece> bodies = pieces(s);
+  for (const std::string& line : piece_lines(bodies, quality.min_edge)) print(stdout, "{}\n", line);
+  if (const std::string loose = loose_piece(bodies); !loose.empty()) print(stdout, "warning: {}\n", loose);
   print_limits(s);
   const double seconds = timed_step(s);
   if (s.breakdown) print(stdout, "the first steps break down: {}\n", s.breakdown->text);

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include "engine/bandwidth.hpp"
+#include "engine/mesh/mesh_quality.hpp"
 #include "engine/monitor.hpp"
+#include "engine/pieces.hpp"
 #include "engine/solver.hpp"
 #include "engine/summarise.hpp"
 #include "engine/throughput.hpp"
@@ -37,7 +39,7 @@ std::string setup_text(const Clock& setup) {
   return fmt::format("{:.2f} s: {}", setup.total(), text);
 }
 
-void print_start(const RunOptions& options, const Simulation& s, const std::vector<Probe>& probes,
+void print_start(const RunOptions& options, Simulation& s, const std::vector<Probe>& probes,
                  const std::filesystem::path& folder) {
   const Energies e = energies(s);
   const Momenta m = momenta(s);
@@ -61,6 +63,11 @@ void print_start(const RunOptions& options, const Simulation& s, const std::vect
   if (!s.domain.boundary.free_faces.empty())
     say(options,
         fmt::format("faces that no [[boundary]] names are free: {}", fmt::join(s.domain.boundary.free_faces, " ")));
+  if (auto large = cfl_warning(*s.domain.scene)) warn(s, "cfl", *large);
+  const std::vector<Piece> bodies = pieces(s);
+  if (bodies.size() > 1)
+    for (const std::string& line : piece_lines(bodies, mesh_quality(*s.domain.mesh).min_edge)) say(options, line);
+  if (const std::string loose = loose_piece(bodies); !loose.empty()) warn(s, "loose_piece", loose);
   if (s.domain.order.metis_failed) say(options, "order: METIS failed; one RCM numbering was cut into parts instead");
   for (const Probe& p : probes)
     say(options, p.place.tet >= 0
@@ -95,15 +102,13 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   HistoryWriter history(folder.path() / "history.csv", history_columns(s, probes));
   Progress progress(0, scene.time.end, options.quiet);
   catch_stop_signals();
-  std::string warned;
+  std::size_t warned = 0;
   std::vector<float> buffer;
   Observer observer;
   observer.on_step = [&](const Simulation& now) {
     progress.update(now.state.step, now.state.t, now.state.dt, std::nullopt);
-    if (!now.warning.empty() && warned.empty()) {
-      warned = now.warning;
-      progress.message("warning: " + warned);
-    }
+    for (; warned < now.watch.warnings.size(); ++warned)
+      progress.message("warning: " + now.watch.warnings[warned].text);
   };
   observer.on_history = [&](const Simulation& now) { history.row(history_row(now, probes)); };
   observer.on_frame = [&](const Simulation& now) {
@@ -125,8 +130,10 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
     write_summary(folder.path() / "summary.json", summary, from);
   }
   if (!reason.empty()) progress.message(status + ": " + reason);
+  for (const std::string& warning : summary.warnings) progress.message("warning: " + warning);
   progress.end();
-  say(options, closing_line(summary));
+  for (const std::string& line : closing_lines(summary)) say(options, line);
+  say(options, fmt::format("results in {}", folder.path().string()));
   return status == "breakdown" ? 3 : stop_signal() ? 128 + stop_signal() : 0;
 }
 

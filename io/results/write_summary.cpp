@@ -77,6 +77,17 @@ toml::table provenance_table(const Provenance& from) {
                      {"flags", from.flags},     {"cpu", from.cpu},       {"host", from.host}};
 }
 
+toml::table extremes_table(const Extremes& e) {
+  const auto entry = [](const Extreme& x) { return toml::table{{"value", number(x.value)}, {"t", number(x.t)}}; };
+  return toml::table{{"least_tet_ratio", entry(e.least_tet_ratio)},
+                     {"least_detF", entry(e.least_detF)},
+                     {"most_detF", entry(e.most_detF)},
+                     {"least_detF_over_J", entry(e.least_detF_over_J)},
+                     {"most_detF_over_J", entry(e.most_detF_over_J)},
+                     {"checkerboard", entry(e.checkerboard)},
+                     {"speed", entry(e.speed)}};
+}
+
 /// Empty without a projection.
 toml::table projection_table(const std::optional<ProjectionSummary>& p) {
   if (!p) return {};
@@ -163,6 +174,8 @@ toml::table summary_table(const Summary& s, const Provenance& from) {
                     {"sweeps", times_table(s.sweeps)},
                     {"provenance", provenance_table(from)}};
   table.insert("checkerboard", number(s.checkerboard));
+  table.insert("extremes", extremes_table(s.extremes));
+  table.insert("warnings", list(s.warnings));
   table.insert("projection", projection_table(s.projection));
   table.insert("throughput", throughput_table(s.throughput));
   toml::table errors;

@@ -106,11 +106,11 @@ void add_verdicts(std::string& page, const StudyResults& all) {
   page += fmt::format(
       "<p>Sound: the run reached its end; at every history row its energy was at most the initial energy and the "
       "external work, within {:g} of them; det F and J stayed positive; no tet "
-      "was turned inside out, where monitor.geometry looked{}. Verdicts are taken from summary.json and "
+      "was turned inside out, unless monitor.geometry was \"off\"{}. Verdicts are taken from summary.json and "
       "history.csv.</p>\n",
       r.energy_tolerance,
       r.checkerboard_max > 0
-          ? fmt::format("; the checkerboard measure of the pressure was at most {:g} at the end", r.checkerboard_max)
+          ? fmt::format("; the checkerboard measure of the pressure was at most {:g}", r.checkerboard_max)
           : "");
   int unknown = 0;
   std::string bad;

@@ -85,7 +85,9 @@ std::string missing_quantity(const Scene& s, const std::string& name) {
     return "needs physics.formulation = \"pFp\"";
   for (const char* audited : {"energy.external_work", "energy.dissipated", "energy.closure"})
     if (name == audited && !s.monitor.energy) return "needs monitor.energy = true";
-  if (name == "least_tet_ratio" && !s.monitor.geometry) return "needs monitor.geometry = true";
+  if ((name == "least_tet_ratio" || name.starts_with("extremes.least_tet_ratio"))
+      && s.monitor.geometry == GeometryWatch::off)
+    return "needs monitor.geometry = \"warn\" or \"stop\"";
   if (!name.starts_with("probes.")) return "";
   std::vector<std::string> known;
   for (const ProbeSpec& p : s.output.probes)

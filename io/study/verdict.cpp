@@ -47,7 +47,7 @@ std::string text_of(const RunSummary& s, const std::string& key) {
 }
 
 Verdict verdict_of_cause(const std::string& cause) {
-  if (cause == "detF" || cause == "J") return Verdict::inverted;
+  if (cause == "detF" || cause == "J" || cause == "inverted_tet") return Verdict::inverted;
   if (cause == "not_finite") return Verdict::not_finite;
   if (cause == "dt_collapse") return Verdict::dt_collapse;
   if (cause == "energy_growth") return Verdict::energy_grew;
@@ -73,10 +73,18 @@ void judge_course(Judgement& j, const RunOutcome& run, const std::optional<Growt
   if (j.min_tet_ratio <= 0)
     found(Verdict::inverted,
           fmt::format("a tet was turned inside out: its volume fell to {:.3g} of the undeformed one", j.min_tet_ratio));
-  const auto chi = run.summary->numbers.find("checkerboard");
-  if (rules.checkerboard_max > 0 && chi != run.summary->numbers.end() && !(chi->second <= rules.checkerboard_max))
+  const auto number = [&](const char* key) {
+    const auto at = run.summary->numbers.find(key);
+    return at == run.summary->numbers.end() ? std::numeric_limits<double>::quiet_NaN() : at->second;
+  };
+  const double last = number("checkerboard"), most = number("extremes.checkerboard.value");
+  if (rules.checkerboard_max > 0 && most > rules.checkerboard_max)
+    found(Verdict::checkerboard,
+          fmt::format("the pressure's checkerboard measure rose to {:.3g} at t = {:.4g} s (allowed {:g})", most,
+                      number("extremes.checkerboard.t"), rules.checkerboard_max));
+  if (rules.checkerboard_max > 0 && last > rules.checkerboard_max)
     found(Verdict::checkerboard, fmt::format("the pressure's checkerboard measure is {:.3g} at the end (allowed {:g})",
-                                             chi->second, rules.checkerboard_max));
+                                             last, rules.checkerboard_max));
 }
 
 }  // namespace

@@ -191,7 +191,7 @@ TEST(Projection, ALimitThatIsMetStopsTheRunUnlessItOnlyWarns) {
   EXPECT_NE(a.breakdown->text.find("projection.max_iterations = 1 in stage 1 of step 1"), std::string::npos)
       << a.breakdown->text;
   EXPECT_EQ(run_quietly(b), "done");
-  EXPECT_NE(b.warning.find("projection.max_iterations"), std::string::npos);
+  EXPECT_NE(b.watch.warnings.at(0).text.find("projection.max_iterations"), std::string::npos);
 }
 
 TEST(Projection, UniformTranslationIsExactAndCostsNoIteration) {

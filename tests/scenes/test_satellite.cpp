@@ -32,7 +32,7 @@ TEST(Satellite, ArmsReachTheFiguresMeasuredBefore) {
 
 /// Arms bend about concave edges, where nothing but D^J ties J to det F: tets turn inside out, unless the parting has an energy.
 TEST(Satellite, NoTetTurnsInsideOutWithAnEnergyOfTheParting) {
-  const std::vector<std::string> settings{"monitor.geometry=true", "output.history_every=20"};
+  const std::vector<std::string> settings{"output.history_every=20"};
   const auto least = [](const SceneRun& r, const char* name) {
     const auto c = r.column(name);
     return *std::min_element(c.begin(), c.end());

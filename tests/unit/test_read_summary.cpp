@@ -56,6 +56,10 @@ TEST(ReadSummary, NumberKeysAreThoseOfTheFile) {
   s.angular_momentum_drift = 0;
   s.nodes = 1;
   s.peak_bytes = 0;
+  Extremes& e = s.extremes;
+  for (Extreme* x : {&e.least_tet_ratio, &e.least_detF, &e.most_detF, &e.least_detF_over_J, &e.most_detF_over_J,
+                     &e.checkerboard, &e.speed})
+    *x = {1, 0};
   for (const char* name : error_names) s.errors[name] = 0;
   std::vector<std::string> written;
   const auto read = parse_summary(summary_json(s, {}));

@@ -93,15 +93,17 @@ TEST(Scene, CurrentAreasAreRefusedWhereTheyAreNotBuilt) {
 
 TEST(Scene, MonitorsAreOffUnlessAskedForAndRefusedWhereTheyMeanNothing) {
   const SceneResult off = read_text(small_scene),
-                    on = read_text(with("[monitor]\nentropy = true\ninvolutions = true\ngeometry = true\n"));
-  EXPECT_FALSE(off.scene.monitor.entropy || off.scene.monitor.involutions || off.scene.monitor.geometry);
+                    on = read_text(with("[monitor]\nentropy = true\ninvolutions = true\ngeometry = \"stop\"\n"));
+  EXPECT_FALSE(off.scene.monitor.entropy || off.scene.monitor.involutions);
+  EXPECT_EQ(off.scene.monitor.geometry, GeometryWatch::warn);
   EXPECT_TRUE(on.errors.empty()) << joined(on.errors);
-  EXPECT_TRUE(on.scene.monitor.entropy && on.scene.monitor.involutions && on.scene.monitor.geometry);
+  EXPECT_TRUE(on.scene.monitor.entropy && on.scene.monitor.involutions);
+  EXPECT_EQ(on.scene.monitor.geometry, GeometryWatch::stop);
   const std::string jst = "[physics]\nstabilisation = \"jst\"\n";
   expect_error(
       with(jst + "[monitor]\nentropy = true\n"),
       "scene.toml:14:11: monitor.entropy = true: counts the edges of the upwind stabilisation only, not of jst");
-  expect_valid(with(jst + "[monitor]\ninvolutions = true\ngeometry = true\n"));
+  expect_valid(with(jst + "[monitor]\ninvolutions = true\ngeometry = \"stop\"\n"));
 }
 
 TEST(Scene, EnergyIsGuardedWhereItIsMonitored) {

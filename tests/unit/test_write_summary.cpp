@@ -70,6 +70,8 @@ TEST(WriteSummary, HasAllKeys) {
                           "setup",
                           "sweeps",
                           "checkerboard",
+                          "extremes",
+                          "warnings",
                           "projection",
                           "throughput",
                           "provenance",
