@@ -19,7 +19,7 @@ int main(int count, char** arguments) {
                                       test::field_named("pressure"), test::field_named("P")};
   const auto from = provenance();
   ResultsFolder folder("sample", arguments[1]);
-  folder.begin();
+  folder.begin(true);
   FieldWriter writer(folder.path(), mesh, fields, results_attributes(from, 2, "scene = \"sample\"  # \u00e9\n"), 0);
   HistoryWriter history(folder.path() / "history.csv", {{"t", "s"}, {"third", "-"}, {"broken", "-"}});
   constexpr int frames = 5;
