@@ -20,7 +20,7 @@ struct Run {
   double seconds() {  // of a step
     const double start = thread_seconds();
     for (int i = 0; i < steps; ++i) {
-      s.dt = allowed_step(s);
+      s.state.dt = allowed_step(s);
       advance(s);
     }
     return (thread_seconds() - start) / steps;
@@ -59,7 +59,7 @@ double difference_to_one_material(const Run& several) {
   const double dt = 0.5 * allowed_step(one.s);
   for (Run* r : {&one, &same_start})
     for (int i = 0; i < 3; ++i) {
-      r->s.dt = dt;
+      r->s.state.dt = dt;
       advance(r->s);
     }
   double worst = 0;
@@ -68,7 +68,7 @@ double difference_to_one_material(const Run& several) {
     for (std::size_t n = 0; n < one.mesh.X.size(); ++n)
       for (std::size_t k = 4 * column; k < 4 * column + 4; ++k) {
         const auto at = [&](const Simulation& s) {
-          return s.state.U[0][row::U * static_cast<std::size_t>(s.order.row_of[n]) + k];
+          return s.state.U[0][row::U * static_cast<std::size_t>(s.domain.order.row_of[n]) + k];
         };
         largest = std::max(largest, std::abs(at(one.s)));
         difference = std::max(difference, std::abs(at(one.s) - at(same_start.s)));
@@ -81,8 +81,8 @@ double difference_to_one_material(const Run& several) {
 double difference_to_plain_loop(Run& run) {
   NaiveLoop naive = make_naive_loop(run.s);
   for (int i = 0; i < 3; ++i) {
-    run.s.dt = allowed_step(run.s);
-    naive_advance(naive, run.s.dt);
+    run.s.state.dt = allowed_step(run.s);
+    naive_advance(naive, run.s.state.dt);
     advance(run.s);
   }
   return largest_difference(naive, run.s);
@@ -101,7 +101,7 @@ void time_option(benchmark::State& state, const Scene& scene) {
   }
   for (auto _ : state) state.SetIterationTime(median(seconds));
   if (base.s.breakdown || option.s.breakdown) return state.SkipWithError("broke down");
-  state.counters["ns"] = 1e9 * median(seconds) / option.s.order.nodes;
+  state.counters["ns"] = 1e9 * median(seconds) / option.s.domain.order.nodes;
   state.counters["to_pFJ"] = median(ratios);
   state.counters["bytes_per_node"] = bytes_per_node(option.s);
 }

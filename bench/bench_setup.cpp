@@ -18,7 +18,7 @@ void time_setup(benchmark::State& state, int cells) {
   std::vector<double> steps;
   for (int i = 0; i < 9; ++i) {
     const double before = thread_seconds();
-    s.dt = allowed_step(s);
+    s.state.dt = allowed_step(s);
     advance(s);
     steps.push_back(thread_seconds() - before);
   }
@@ -26,7 +26,7 @@ void time_setup(benchmark::State& state, int cells) {
   if (s.breakdown) return state.SkipWithError(s.breakdown->text.c_str());
   state.counters["steps"] = (ready - meshed) / median(steps);
   state.counters["mesh_steps"] = (meshed - start) / median(steps);
-  for (const SweepTime& part : s.setup.sweeps) state.counters[part.sweep] = part.seconds / s.setup.total();
+  for (const SweepTime& part : s.team.setup.sweeps) state.counters[part.sweep] = part.seconds / s.team.setup.total();
 }
 
 }  // namespace

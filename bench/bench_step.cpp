@@ -59,9 +59,9 @@ struct Measured {
 };
 
 void fused(Simulation& s, int threads, int steps) {
-  s.threads = threads;
+  s.team.threads = threads;
   for (int i = 0; i < steps; ++i) {
-    s.dt = allowed_step(s);
+    s.state.dt = allowed_step(s);
     advance(s);
   }
 }
@@ -82,12 +82,12 @@ double in_cache(Scene scene) {
   fused(s, 1, 20);
   std::vector<double> seconds;
   for (int r = 0; r < repetitions; ++r) seconds.push_back(timed(50, [&] { fused(s, 1, 50); }).second);
-  return 1e9 * median(seconds) / s.order.nodes;
+  return 1e9 * median(seconds) / s.domain.order.nodes;
 }
 
 double barrier_seconds(Simulation& s) {
   constexpr int count = 2000;
-  s.threads = 2;
+  s.team.threads = 2;
   return timed(count,
                [&] {
                  for (int i = 0; i < count; ++i) for_parts(s, [](int, Scratch) {});
@@ -101,12 +101,12 @@ Measured measure(const std::string& name, const Scene& scene) {
   Simulation s = make_simulation(scene, mesh, 2);
   auto naive = std::make_unique<NaiveLoop>(make_naive_loop(s));
   for (int i = 0; i < 4; ++i) {
-    s.dt = allowed_step(s);
-    s.threads = 1 + i % 2;
-    naive_advance(*naive, s.dt);
+    s.state.dt = allowed_step(s);
+    s.team.threads = 1 + i % 2;
+    naive_advance(*naive, s.state.dt);
     advance(s);
   }
-  const double difference = largest_difference(*naive, s), dt = s.dt;
+  const double difference = largest_difference(*naive, s), dt = s.state.dt;
   if (!(difference < same)) out.error = fmt::format("differs from the plain loop by {:.1e}", difference);
   std::vector<double> naive_s, one_s, two_s, ratio, speedup;
   for (int r = 0; r < repetitions; ++r) {
@@ -125,8 +125,8 @@ Measured measure(const std::string& name, const Scene& scene) {
   out.naive = median(naive_s);
   out.one = median(one_s);
   out.two = median(two_s);
-  out.nodes = s.order.nodes;
-  out.work = step_work(scene.physics, Sizes(s.order), flops_of(scene), 2);
+  out.nodes = s.domain.order.nodes;
+  out.work = step_work(scene.physics, Sizes(s.domain.order), flops_of(scene), 2);
   const double ns = 1e9 / out.nodes;
   if (out.error.empty())
     step_ratios().push_back({name, out.nodes, ns * out.naive, ns * out.one, ns * out.two, median(ratio),

@@ -8,42 +8,55 @@
 #include "bench/bench.hpp"
 #include "bench/naive_loop.hpp"
 #include "engine/counted.hpp"
+#include "engine/node_geometry.hpp"
 #include "engine/parts.hpp"
+#include "engine/start.hpp"
 
 namespace nanson {
 namespace {
 
+Scene scene_of_bed() {
+  Scene scene;
+  const int n = options().cells;
+  scene.mesh.size = {1, 1, 1};
+  scene.mesh.cells = {n, n, n};
+  scene.material.density = 1100;
+  scene.material.youngs_modulus = 17e6;
+  scene.material.poissons_ratio = 0.495;
+  scene.material.xi = 2e5;
+  return scene;
+}
+
+Simulation with_weights(const Scene& scene, const Mesh& mesh) {
+  Team team = make_team(1);
+  Domain d = make_domain(scene, mesh, team.setup);
+  d.lambda = laplacian_weights(mesh, make_dual(mesh), d.order);
+  return nanson::start(std::move(d), std::move(team));
+}
+
 /// A simulation that carries every row, so that any set of sweeps can run on it.
 struct Bed {
-  Scene scene;
-  Mesh mesh;
-  Simulation s;
-  PartFunctions audited;
+  Scene scene = scene_of_bed();
+  Mesh mesh = box_mesh(scene.mesh);
+  Simulation s = with_weights(scene, mesh);
+  Coefficients k = s.domain.coefficients;
+  PartFunctions functions, audited;
 
   Bed() {
-    const int n = options().cells;
-    scene.mesh.size = {1, 1, 1};
-    scene.mesh.cells = {n, n, n};
-    scene.material.density = 1100;
-    scene.material.youngs_modulus = 17e6;
-    scene.material.poissons_ratio = 0.495;
-    scene.material.xi = 2e5;
-    mesh = box_mesh(scene.mesh);
-    s = make_simulation(scene, mesh, 1);
     PhysicsSpec& all = scene.physics;  // not a combination that is built, but every row is there
     all.stabilisation = Stabilisation::jst;
     all.formulation = Formulation::pFHJ;
     all.pressure_jump = PressureJump::tensor;
     all.flux_correction = FluxCorrection::full;
-    s.state = make_state(scene, mesh, make_dual(mesh), s.order, s.boundary);
-    s.state.q.assign(s.order.C[0].size(), 0.0);
+    s.state = make_state(s.domain);
+    s.state.q.assign(s.domain.order.C[0].size(), 0.0);
     deform();
   }
 
   /// Smooth velocities and a finite deformation; det F, J and H a little apart.
   void deform() {
-    for (int r = 0; r < s.order.rows; ++r) {
-      const double* X = &s.state.X[static_cast<std::size_t>(row::X * r)];
+    for (int r = 0; r < s.domain.order.rows; ++r) {
+      const double* X = &s.domain.X[static_cast<std::size_t>(row::X * r)];
       double *U = &s.state.U[0][static_cast<std::size_t>(row::U * r)],
              *H = &s.state.H[0][static_cast<std::size_t>(row::H * r)];
       const auto wave = [&](int k) { return std::sin(k + 3 * X[k % 3] + 2 * X[(k + 1) % 3] + 1.3 * X[(k + 2) % 3]); };
@@ -59,23 +72,23 @@ struct Bed {
   void choose(const PhysicsSpec& p, const MaterialSpec& m) {
     scene.physics = p;
     scene.material = m;
-    s.functions = find_part_functions(p, m);
+    functions = find_part_functions(p, m);
     audited = find_part_functions(p, m, Materials::one, true);
-    s.coefficients.material = constants_of(m);
-    s.coefficients.deformed_metric = p.upwind_metric == UpwindMetric::deformed;
-    s.coefficients.sweeps_J = p.stabilisation == Stabilisation::jst;
+    k.material = constants_of(m);
+    k.deformed_metric = p.upwind_metric == UpwindMetric::deformed;
+    k.sweeps_J = p.stabilisation == Stabilisation::jst;
   }
 
-  Rows rows() { return stage_rows(s.state, 0, 1); }  // of the first stage of a step
+  Rows rows() { return stage_rows(s.domain, s.state, 0, 1); }  // of the first stage of a step
   Coefficients coefficients(double dt) {
-    Coefficients k = s.coefficients;
-    k.dt = dt;
-    return k;
+    Coefficients of_stage = k;
+    of_stage.dt = dt;
+    return of_stage;
   }
 
   template <class Sweep>
   void over_parts(Sweep sweep) {
-    for (const Part& p : s.order.parts) sweep(p, scratch_of(s, 0));
+    for (const Part& p : s.domain.order.parts) sweep(p, scratch_of(s, 0));
   }
   void start() {  // stress of the start
     Rows r = rows();
@@ -83,22 +96,22 @@ struct Bed {
     r.H_new = s.state.H[0].data();
     r.W_new = s.state.W[0].data();
     r.PH_new = s.state.PH[0].data();
-    over_parts([&](const Part& p, Scratch) { s.functions.stress(p, r, s.coefficients, s.state.step_length.data()); });
+    over_parts([&](const Part& p, Scratch) { functions.stress(p, r, k, s.domain.step_length.data()); });
   }
   void gradient() {
     over_parts([&](const Part& p, Scratch) {
-      s.functions.gradient(p, s.order.edges(), s.order.corners(), s.order.lists(), rows(), s.coefficients);
+      functions.gradient(p, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows(), k);
     });
   }
   double flux(const Part& p, Scratch scratch, bool audits = false) {
-    return (audits ? audited : s.functions)
-        .edge_flux(p, s.order.edges(), s.order.corners(), s.order.lists(), rows(), s.coefficients, scratch);
+    return (audits ? audited : functions)
+        .edge_flux(p, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows(), k, scratch);
   }
   void update(const Part& p, Scratch scratch, double dt) {
-    s.functions.accumulate_update(p, s.order.edges(), s.order.lists(), rows(), coefficients(dt),
-                                  s.boundary.constraints.data(), s.state.reactions.data(), scratch);
+    functions.accumulate_update(p, s.domain.order.edges(), s.domain.order.lists(), rows(), coefficients(dt),
+                                s.domain.boundary.constraints.data(), s.state.reactions.data(), scratch);
   }
-  void stress(const Part& p) { s.functions.stress(p, rows(), s.coefficients, s.state.step_length.data()); }
+  void stress(const Part& p) { functions.stress(p, rows(), k, s.domain.step_length.data()); }
   double dissipation() {
     double power = 0;
     over_parts([&](const Part& p, Scratch scratch) { power += flux(p, scratch, true); });
@@ -107,13 +120,15 @@ struct Bed {
 
   /// Difference to the plain loop after one stage, and of the stabilisation's power.
   double difference() {
-    const double dt = 1e-3 / (options().cells * s.coefficients.material.cp);
+    const double dt = 1e-3 / (options().cells * k.material.cp);
     start();
     gradient();
-    if (s.functions.corrects_stress) std::swap(s.state.PH[0], s.state.PH[1]);
+    if (functions.corrects_stress) std::swap(s.state.PH[0], s.state.PH[1]);
     over_parts([&](const Part& p, Scratch scratch) { flux(p, scratch), update(p, scratch, dt), stress(p); });
     start();
     NaiveLoop naive = make_naive_loop(s);
+    naive.material = k.material;
+    naive_material(naive, naive.now, naive.H_now);
     const double of_power = scene.physics.stabilisation == Stabilisation::upwind
                                 ? std::abs(dissipation() / naive_dissipation(naive) - 1)
                                 : 0.0;
@@ -142,7 +157,7 @@ void time_sweep(benchmark::State& state, const PhysicsSpec& p, const MaterialSpe
     sweep(b);
     seconds.push_back(thread_seconds() - start);
   }
-  set_columns(state, median(seconds), b.s.order.nodes, model(Sizes(b.s.order)), 1);
+  set_columns(state, median(seconds), b.s.domain.order.nodes, model(Sizes(b.s.domain.order)), 1);
 }
 
 template <class Sweep, class Model>

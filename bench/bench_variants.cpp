@@ -13,6 +13,7 @@
 #include "bench/bench.hpp"
 #include "engine/clock.hpp"
 #include "engine/parts.hpp"
+#include "engine/solver.hpp"
 #include "kernels/accumulate_update_part.hpp"
 #include "kernels/edge_flux_part.hpp"
 
@@ -97,37 +98,38 @@ struct Bed {
   Scene scene = column();
   Mesh mesh = box_mesh(scene.mesh);
   Simulation s = make_simulation(scene, mesh, 2);
-  Colours colours = colour(s.order);
-  Order twice = both_ways(s.order);
+  Colours colours = colour(s.domain.order);
+  Order twice = both_ways(s.domain.order);
   Aligned<double> edge_array = Aligned<double>(
-      4 * (static_cast<std::size_t>(s.order.out.back()) + 8 * s.order.parts.size()), 0.0);
-  Aligned<double> corner_array = Aligned<double>(4 * s.order.corner_b.size(), 0.0);
-  Aligned<double> force = Aligned<double>(4 * static_cast<std::size_t>(s.order.rows), 0.0);
+      4 * (static_cast<std::size_t>(s.domain.order.out.back()) + 8 * s.domain.order.parts.size()), 0.0);
+  Aligned<double> corner_array = Aligned<double>(4 * s.domain.order.corner_b.size(), 0.0);
+  Aligned<double> force = Aligned<double>(4 * static_cast<std::size_t>(s.domain.order.rows), 0.0);
   std::vector<Aligned<double>> large = std::vector<Aligned<double>>(
       2, Aligned<double>(4 * static_cast<std::size_t>(twice.most_edges + 8), 0.0));  // one a thread
-  Rows rows = stage_rows(s.state, 0, 1);
-  Coefficients k = s.coefficients;
+  Rows rows = stage_rows(s.domain, s.state, 0, 1);
+  Coefficients k = s.domain.coefficients;
 
   Bed() {
     for (int i = 0; i < 10; ++i) {  // strained and moving in all directions
-      s.dt = allowed_step(s);
+      s.state.dt = allowed_step(s);
       advance(s);
     }
-    rows = stage_rows(s.state, 0, 1);
+    rows = stage_rows(s.domain, s.state, 0, 1);
     k.dt = 0.5 * allowed_step(s);
-    k.acceleration = s.acceleration.data();
+    k.acceleration = s.state.acceleration.data();
   }
-  const Part& part(int p) const { return s.order.parts[static_cast<std::size_t>(p)]; }
+  const Part& part(int p) const { return s.domain.order.parts[static_cast<std::size_t>(p)]; }
   void flux(const Part& p, const Order& o, const Scratch& scratch) {
     edge_flux_part<linear, none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, false>(
         p, o.edges(), o.corners(), o.lists(), rows, k, scratch);
   }
   void accumulate(const Part& p, const Order& o, const Scratch& scratch) {
     accumulate_update_part<Formulation::pFJ, GradientCorrection::none>(
-        p, o.edges(), o.lists(), rows, k, s.boundary.constraints.data(), s.state.reactions.data(), scratch);
+        p, o.edges(), o.lists(), rows, k, s.domain.boundary.constraints.data(), s.state.reactions.data(), scratch);
   }
   void stress(int p) {
-    s.reports[static_cast<std::size_t>(p)] = s.functions.stress(part(p), rows, k, s.state.step_length.data());
+    s.state.reports[static_cast<std::size_t>(p)] = s.domain.functions.stress(part(p), rows, k,
+                                                                             s.domain.step_length.data());
   }
   void gradient(const Order& o) {
     for_parts(s, [&](int p, Scratch) {
@@ -158,28 +160,29 @@ void add_row(double* to, Vec4 row) { store4(to, load4(to) + row); }
 
 /// Corners of a part onto its nodes' forces, supports, update.
 void finish_part(Bed& bed, const Part& p, const Scratch& scratch) {
-  const auto lists = bed.s.order.lists();
-  corner_forces(p, bed.s.order.corners(), lists, bed.rows, bed.k, scratch.corner);
+  const auto lists = bed.s.domain.order.lists();
+  corner_forces(p, bed.s.domain.order.corners(), lists, bed.rows, bed.k, scratch.corner);
   for (int n = p.node_begin; n < p.node_end; ++n)
     for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g)
       add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
-  constrain<Materials::one>(p, bed.rows, bed.k, bed.s.boundary.constraints.data(), bed.s.state.reactions.data(),
+  constrain<Materials::one>(p, bed.rows, bed.k, bed.s.domain.boundary.constraints.data(), bed.s.state.reactions.data(),
                             scratch);
   update<Formulation::pFJ, GradientCorrection::none, Areas::undeformed, Materials::one>(p, bed.rows, bed.k, scratch);
 }
 
 void part_buffer(Bed& bed) {
-  bed.gradient(bed.s.order);
+  bed.gradient(bed.s.domain.order);
   for_parts(bed.s, [&](int p, Scratch scratch) {
-    bed.flux(bed.part(p), bed.s.order, scratch), bed.accumulate(bed.part(p), bed.s.order, scratch), bed.stress(p);
+    bed.flux(bed.part(p), bed.s.domain.order, scratch), bed.accumulate(bed.part(p), bed.s.domain.order, scratch),
+        bed.stress(p);
   });
 }
 
 void part_accumulation(Bed& bed) {
-  bed.gradient(bed.s.order);
+  bed.gradient(bed.s.domain.order);
   for_parts(bed.s, [&](int p, Scratch scratch) {
     const Part& part = bed.part(p);
-    const EdgeArrays edges = bed.s.order.edges();
+    const EdgeArrays edges = bed.s.domain.order.edges();
     double* force = scratch.force - 4 * static_cast<std::ptrdiff_t>(part.node_begin);
     std::fill(scratch.force, scratch.force + 4 * (part.node_end - part.node_begin), 0.0);
     each_flux(bed, edges, part.edge_begin, part.edge_end, [&](int e, Vec4 f) {
@@ -207,21 +210,22 @@ void global_edge_array(Bed& bed) {
     scratch.corner = bed.corner_array.data() + 4 * static_cast<std::ptrdiff_t>(bed.part(p).corner_begin);
     return scratch;
   };
-  bed.gradient(bed.s.order);
-  for_parts(bed.s, [&](int p, Scratch scratch) { bed.flux(bed.part(p), bed.s.order, placed(p, scratch)); });
-  for_parts(bed.s, [&](int p, Scratch scratch) { bed.accumulate(bed.part(p), bed.s.order, placed(p, scratch)); });
+  bed.gradient(bed.s.domain.order);
+  for_parts(bed.s, [&](int p, Scratch scratch) { bed.flux(bed.part(p), bed.s.domain.order, placed(p, scratch)); });
+  for_parts(bed.s,
+            [&](int p, Scratch scratch) { bed.accumulate(bed.part(p), bed.s.domain.order, placed(p, scratch)); });
   for_parts(bed.s, [&](int p, Scratch) { bed.stress(p); });
 }
 
 void coloured_scatter(Bed& bed) {
   constexpr int chunk = 16 * edge_block;
-  bed.gradient(bed.s.order);
+  bed.gradient(bed.s.domain.order);
   std::fill(bed.force.begin(), bed.force.end(), 0.0);
   const EdgeArrays edges = bed.colours.edges();
   double* force = bed.force.data();
   for (std::size_t c = 0; c + 1 < bed.colours.begin.size(); ++c) {
     const int begin = bed.colours.begin[c], end = bed.colours.begin[c + 1];
-#pragma omp parallel for schedule(static) num_threads(bed.s.threads)
+#pragma omp parallel for schedule(static) num_threads(bed.s.team.threads)
     for (int from = begin; from < end; from += chunk)
       each_flux(bed, edges, from, std::min(end, from + chunk),
                 [&](int e, Vec4 f) { add_row(force + 4 * edges.a[e], f), add_row(force + 4 * edges.b[e], -f); });
@@ -260,7 +264,7 @@ double difference(Bed& bed, const Variant& variant) {
 
 void time_variant(benchmark::State& state, const Variant& variant, int threads) {
   static auto bed = std::make_unique<Bed>();
-  bed->s.threads = threads;
+  bed->s.team.threads = threads;
   const double differs = difference(*bed, variant);
   if (!(differs < same)) return state.SkipWithError(fmt::format("differs from the engine by {:.1e}", differs).c_str());
   constexpr int repetitions = 9;
@@ -276,7 +280,7 @@ void time_variant(benchmark::State& state, const Variant& variant, int threads) 
     ratios.push_back(seconds.back() / ours.back());
   }
   for (auto _ : state) state.SetIterationTime(median(seconds));
-  state.counters["ns"] = 2e9 * median(seconds) / bed->s.order.nodes;  // a step has two stages
+  state.counters["ns"] = 2e9 * median(seconds) / bed->s.domain.order.nodes;  // a step has two stages
   state.counters["to_engine"] = median(ratios);
 }
 

@@ -85,30 +85,30 @@ void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_r
 
 NaiveLoop make_naive_loop(const Simulation& s) {
   NaiveLoop n;
-  n.scene = s.scene;
-  n.material = s.coefficients.material;
-  n.t = s.t;
-  std::vector<int> node_of_row(static_cast<std::size_t>(s.order.rows), -1);
-  for (int r = 0; r < s.order.rows; ++r) {
-    const int node = s.order.node_of[r];
+  n.scene = s.domain.scene;
+  n.material = s.domain.coefficients.material;
+  n.t = s.state.t;
+  std::vector<int> node_of_row(static_cast<std::size_t>(s.domain.order.rows), -1);
+  for (int r = 0; r < s.domain.order.rows; ++r) {
+    const int node = s.domain.order.node_of[r];
     if (node < 0) continue;
     node_of_row[r] = static_cast<int>(n.row.size());
     n.row.push_back(r);
-    n.X.push_back(s.mesh->X[node]);
-    n.volume.push_back(s.volume[node]);
-    n.step_length.push_back(s.state.step_length[r]);
+    n.X.push_back(s.domain.mesh->X[node]);
+    n.volume.push_back(s.domain.volume[node]);
+    n.step_length.push_back(s.domain.step_length[r]);
   }
-  place_edges(n, s.order, node_of_row);
-  n.constraints = s.boundary.constraints;
-  n.loaded = s.boundary.loaded;
+  place_edges(n, s.domain.order, node_of_row);
+  n.constraints = s.domain.boundary.constraints;
+  n.loaded = s.domain.boundary.loaded;
   for (Constraint& h : n.constraints) h.node = node_of_row[h.node];
   for (LoadedFace& f : n.loaded)
     for (int& node : f.node) node = node_of_row[node];
   allocate(n);
   if (n.scene->physics.stabilisation == Stabilisation::jst) find_lambda(n);
   if (has_current_areas(n.scene->physics.description)) {
-    for (auto t : s.mesh->tets) {
-      for (int& node : t) node = node_of_row[s.order.row_of[node]];
+    for (auto t : s.domain.mesh->tets) {
+      for (int& node : t) node = node_of_row[s.domain.order.row_of[node]];
       n.tets.push_back(t);
     }
     n.current_edges = n.edges;

@@ -12,9 +12,6 @@ namespace {
 
 static_assert(moment_count <= part_row);
 
-Vec3 cross(const Vec3& p, const Vec3& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
 Vec3 arm(const double* arms, int n, const Vec3& about) {
   return {arms[row::U * n + 7] - about[0], arms[row::U * n + 11] - about[1], arms[row::U * n + 15] - about[2]};
 }
@@ -25,19 +22,20 @@ void add(double* sum, const Vec3& v) {
 
 }  // namespace
 
-void sum_moments(Simulation& s, const Rows& rows, const double* arms, int part, const Scratch& scratch) {
-  const Part& p = s.order.parts[static_cast<std::size_t>(part)];
-  const double o[3] = {s.arm_origin[0], s.arm_origin[1], s.arm_origin[2]};
-  moments_part(p, nodes_of(s, p), rows.X, arms, o, scratch, s.part_rows[static_cast<std::size_t>(part)].data());
+void sum_moments(const Simulation& s, const Rows& rows, const double* arms, int part, const Scratch& scratch) {
+  const Part& p = s.domain.order.parts[static_cast<std::size_t>(part)];
+  const double o[3] = {s.state.arm_origin[0], s.state.arm_origin[1], s.state.arm_origin[2]};
+  moments_part(p, nodes_of(s.domain, p), rows.X, arms, o, scratch,
+               s.team.part_rows[static_cast<std::size_t>(part)].data());
 }
 
-Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about) {
+Vec3 external_torque(const Simulation& s, const double* arms, const Vec3& about) {
   Vec3 torque{};
-  if (!s.boundary.constraints.empty()) {
+  if (!s.domain.boundary.constraints.empty()) {
     const auto sum = sums_over_parts<3>(s, [&](int p, double* out) {
-      const Part& part = s.order.parts[static_cast<std::size_t>(p)];
+      const Part& part = s.domain.order.parts[static_cast<std::size_t>(p)];
       for (int i = part.constraint_begin; i < part.constraint_end; ++i) {
-        const Constraint& h = s.boundary.constraints[static_cast<std::size_t>(i)];
+        const Constraint& h = s.domain.boundary.constraints[static_cast<std::size_t>(i)];
         const double* R = &s.state.reactions[static_cast<std::size_t>(reaction_row * i)];
         Vec3 f{};
         for (int m = 0; m < h.count; ++m)
@@ -47,19 +45,18 @@ Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about) {
     });
     add(torque.data(), sum);
   }
-  for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot) {
+  for (std::size_t slot = 0; slot < s.domain.boundary.slot_nodes.size(); ++slot) {
     const double* f = &s.state.loads[4 * slot];
-    for (int n : s.boundary.slot_nodes[slot]) add(torque.data(), cross(arm(arms, n, about), {f[0], f[1], f[2]}));
+    for (int n : s.domain.boundary.slot_nodes[slot]) add(torque.data(), cross(arm(arms, n, about), {f[0], f[1], f[2]}));
   }
-  const Vec3& g = s.scene->body_force;
+  const Vec3& g = s.domain.scene->body_force;
   if (g[0] != 0 || g[1] != 0 || g[2] != 0) {
     const auto sum = sums_over_parts<3>(s, [&](int p, double* out) {
-      const Part& part = s.order.parts[static_cast<std::size_t>(p)];
-      for (int n = part.node_begin; n < part.node_begin + nodes_of(s, part); ++n) {
-        if (is_padding(s, n)) continue;
+      const Part& part = s.domain.order.parts[static_cast<std::size_t>(p)];
+      for (int n = part.node_begin; n < part.node_begin + nodes_of(s.domain, part); ++n) {
+        if (is_padding(s.domain, n)) continue;
         const Vec3 r = arm(arms, n, about);
-        for (int k = 0; k < 3; ++k)
-          out[k] += density(s, n) / s.state.X[static_cast<std::size_t>(row::X * n + 3)] * r[k];
+        for (int k = 0; k < 3; ++k) out[k] += mass(s.domain, n) * r[k];
       }
     });
     add(torque.data(), cross(sum, g));
@@ -71,7 +68,7 @@ Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about) {
 /// sum Omega [|r|^2 I - r (x) r] lambda = -torque with r = y - c, which is well scaled wherever the body is and however small.
 double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients& k, const double* arms) {
   const auto m = tree_sums<moment_count>(s);
-  const Vec3 outside = external_torque(s, arms, s.arm_origin);
+  const Vec3 outside = external_torque(s, arms, s.state.arm_origin);
   const Eigen::Vector3d S = Eigen::Vector3d(m[1], m[2], m[3]) / m[0],
                         torque(m[10] - outside[0], m[11] - outside[1], m[12] - outside[2]);
   Eigen::Matrix3d M;
@@ -79,12 +76,14 @@ double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients
   M -= m[0] * S * S.transpose();
   const Eigen::Matrix3d inertia = M.trace() * Eigen::Matrix3d::Identity() - M;
   const Eigen::Vector3d l = inertia.ldlt().solve(-torque);
-  for (int i = 0; i < 3; ++i) s.arm_origin[i] += S[i];  // the centre of the arms: near the body's wherever it flies
-  const double lambda[3] = {l[0], l[1], l[2]}, centre[3] = {s.arm_origin[0], s.arm_origin[1], s.arm_origin[2]};
+  for (int i = 0; i < 3; ++i)
+    s.state.arm_origin[i] += S[i];  // the centre of the arms: near the body's wherever it flies
+  const double lambda[3] = {l[0], l[1], l[2]},
+               centre[3] = {s.state.arm_origin[0], s.state.arm_origin[1], s.state.arm_origin[2]};
   return sum_over_parts(s, [&](int p) {
-    const Part& part = s.order.parts[static_cast<std::size_t>(p)];
-    return correct_part(part, nodes_of(s, part), rows, k, arms, lambda, centre, s.boundary.constraints.data(),
-                        s.state.reactions.data());
+    const Part& part = s.domain.order.parts[static_cast<std::size_t>(p)];
+    return correct_part(part, nodes_of(s.domain, part), rows, k, arms, lambda, centre,
+                        s.domain.boundary.constraints.data(), s.state.reactions.data());
   });
 }
 

@@ -1,16 +1,16 @@
 // Angular momentum projection of a TVD-RK2 stage: the smallest change of the internal forces that makes their torque zero (method, section 7).
 #pragma once
-#include "engine/solver.hpp"
+#include "engine/simulation.hpp"
 
 namespace nanson {
 
 /// What the sums of a stage leave behind: scratch.force of each part is summed while it lasts, inside the fused sweep.
-void sum_moments(Simulation& s, const Rows& rows, const double* arms, int part, const Scratch& scratch);
+void sum_moments(const Simulation& s, const Rows& rows, const double* arms, int part, const Scratch& scratch);
 
 /// After the sweep: one solve, then the correction of v in U_new and W_new, and of the stage's reactions. Returns its power [W].
 double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients& k, const double* arms);
 
 /// Torque about a point of supports, loads and body force in the present stage, with the arms of the rows U `arms` [N m].
-Vec3 external_torque(Simulation& s, const double* arms, const Vec3& about);
+Vec3 external_torque(const Simulation& s, const double* arms, const Vec3& about);
 
 }  // namespace nanson

@@ -9,13 +9,6 @@
 namespace nanson {
 namespace {
 
-double dot(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-Vec3 scaled(const Vec3& p, double s) { return {p[0] * s, p[1] * s, p[2] * s}; }
-Vec3 unit(const Vec3& p) { return scaled(p, 1 / std::sqrt(dot(p, p))); }
-Vec3 cross(const Vec3& p, const Vec3& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-
 constexpr double feature_angle = std::numbers::pi
                                  / 6;    // [rad] faces of one patch that meet at a larger angle form a crease
 constexpr double same_direction = 1e-3;  // [rad] closer directions are one

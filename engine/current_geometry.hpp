@@ -5,16 +5,18 @@
 
 namespace nanson {
 
-/// Empty with description = "total".
-struct CurrentGeometry {
-  Aligned<double> x, map;            // {x, 0} [m]; columns of H_x (pseudo_updated)
-  Aligned<double> c[3], corner[3];   // [m^2] of edges and corners, in the order's numbering
-  Aligned<double> dJ;                // [1/s] a node, of the stage
+/// The tets around edges and corners; empty with description = "total".
+struct TetRings {
   Aligned<std::int32_t> ring, cd;    // per edge: the pairs (c, d) of the tets at it (updated)
   Aligned<std::int32_t> at_b, at_c;  // per corner: the same face's corners at b and c
 };
+TetRings make_tet_rings(Description description, const Mesh& mesh, const Order& order);
 
-CurrentGeometry make_current_geometry(Description description, const Mesh& mesh, const Order& order);
-std::size_t current_geometry_bytes(const CurrentGeometry& g);
+/// Of a stage; empty with description = "total".
+struct CurrentGeometry {
+  Aligned<double> x, map;           // {x, 0} [m]; columns of H_x (pseudo_updated)
+  Aligned<double> c[3], corner[3];  // [m^2] of edges and corners, in the order's numbering
+  Aligned<double> dJ;               // [1/s] a node
+};
 
 }  // namespace nanson

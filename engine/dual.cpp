@@ -10,14 +10,6 @@
 namespace nanson {
 namespace {
 
-Vec3 operator-(const Vec3& p, const Vec3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-Vec3 operator+(const Vec3& p, const Vec3& q) { return {p[0] + q[0], p[1] + q[1], p[2] + q[2]}; }
-Vec3 cross(const Vec3& p, const Vec3& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-double dot(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-double norm(const Vec3& p) { return std::sqrt(dot(p, p)); }
-
 Vec3 area_in_tet(const Mesh& mesh, const std::array<int, 4>& t, const int (&e)[4]) {
   const Vec3 &a = mesh.X[t[e[0]]], &b = mesh.X[t[e[1]]], &c = mesh.X[t[e[2]]], &d = mesh.X[t[e[3]]];
   const Vec3 C = cross(c - d, (c - a) + (d - b));

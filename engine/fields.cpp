@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "engine/compensated_sum.hpp"
-#include "engine/hash.hpp"
 #include "engine/initial.hpp"
 #include "engine/manufactured.hpp"
 
@@ -16,21 +15,25 @@ namespace nanson {
 namespace {
 
 const double* U_row(const Simulation& s, int node) {
-  return &s.state.U[0][static_cast<std::size_t>(row::U * s.order.row_of[static_cast<std::size_t>(node)])];
+  return &s.state.U[0][static_cast<std::size_t>(row::U * s.domain.order.row_of[static_cast<std::size_t>(node)])];
 }
 const double* PH_row(const Simulation& s, int node) {
-  return &s.state.PH[s.state.now][static_cast<std::size_t>(row::PH * s.order.row_of[static_cast<std::size_t>(node)])];
+  return &s.state.PH[s.state.now]
+                    [static_cast<std::size_t>(row::PH * s.domain.order.row_of[static_cast<std::size_t>(node)])];
 }
 
 /// P_iI of the material [Pa]: without the flux correction that the next step's first stage takes.
 double P_at(const Simulation& s, int node, int i, int I) {
   const double P = PH_row(s, node)[8 * I + i];
   if (!s.state.has_lagged_correction || s.state.dP.empty()) return P;
-  return P - s.state.dP[static_cast<std::size_t>(row::dP * s.order.row_of[static_cast<std::size_t>(node)] + 4 * I + i)];
+  return P
+         - s.state.dP[static_cast<std::size_t>(row::dP * s.domain.order.row_of[static_cast<std::size_t>(node)] + 4 * I
+                                               + i)];
 }
 
 double plastic_strain(const Simulation& s, int node) {
-  return s.state.plastic[static_cast<std::size_t>(row::plastic * s.order.row_of[static_cast<std::size_t>(node)] + 3)];
+  return s.state
+      .plastic[static_cast<std::size_t>(row::plastic * s.domain.order.row_of[static_cast<std::size_t>(node)] + 3)];
 }
 
 Tensor<double> F_of(const double* U) {
@@ -43,7 +46,7 @@ Tensor<double> F_of(const double* U) {
 Tensor<double> cauchy(const Simulation& s, int node) {
   const double* U = U_row(s, node);
   const Tensor<double> F = F_of(U);
-  const double J = evolves_J(s.scene->physics.formulation) ? U[3] : determinant(F, cofactor(F));
+  const double J = evolves_J(s.domain.scene->physics.formulation) ? U[3] : determinant(F, cofactor(F));
   Tensor<double> sigma{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -67,7 +70,7 @@ double von_mises(const Tensor<double>& a) {
 
 void field_at(const Simulation& s, std::string_view name, int node, double* out) {
   const double *U = U_row(s, node), *PH = PH_row(s, node);
-  const Vec3& X = s.mesh->X[static_cast<std::size_t>(node)];
+  const Vec3& X = s.domain.mesh->X[static_cast<std::size_t>(node)];
   for (int k = 0; k < 3; ++k) {
     if (name == "x") out[k] = U[4 * (k + 1) + 3];
     if (name == "displacement") out[k] = U[4 * (k + 1) + 3] - X[k];
@@ -76,7 +79,7 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
   for (int k = 0; k < 9; ++k) {
     if (name == "P") out[k] = P_at(s, node, k / 3, k % 3);
     if (name == "H") out[k] = PH[8 * (k % 3) + 4 + k / 3];
-    if (name == "H" && has_current_areas(s.scene->physics.description))
+    if (name == "H" && has_current_areas(s.domain.scene->physics.description))
       out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
     if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
   }
@@ -85,7 +88,7 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
     return determinant(F, cofactor(F));
   };
   if (name == "detF") out[0] = detF();
-  if (name == "J") out[0] = evolves_J(s.scene->physics.formulation) ? U[3] : detF();
+  if (name == "J") out[0] = evolves_J(s.domain.scene->physics.formulation) ? U[3] : detF();
   if (name == "pressure") {
     const auto a = cauchy(s, node);
     out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3;
@@ -95,9 +98,9 @@ void field_at(const Simulation& s, std::string_view name, int node, double* out)
 }
 
 std::vector<float> field(const Simulation& s, const FieldName& name) {
-  std::vector<float> values(static_cast<std::size_t>(s.order.nodes * name.components));
-#pragma omp parallel for schedule(static) num_threads(s.threads)
-  for (int n = 0; n < s.order.nodes; ++n) {
+  std::vector<float> values(static_cast<std::size_t>(s.domain.order.nodes * name.components));
+#pragma omp parallel for schedule(static) num_threads(s.team.threads)
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
     double v[9];
     field_at(s, name.name, n, v);
     for (int k = 0; k < name.components; ++k)
@@ -146,15 +149,16 @@ void probe(const Simulation& s, const ProbePlace& place, const FieldName& name, 
 
 std::map<std::string, double> exact_errors(const Simulation& s) {
   std::map<std::string, double> errors;
-  if (!has_exact_solution(*s.scene)) return errors;
-  const MaterialConstants& m = s.coefficients.material;
-  const auto P11 = [&](const PointState& p) { return exact_stress(s.scene->material, m, p)[0][0]; };
-  const Vec3 middle = middle_of_box(*s.mesh);
+  if (!has_exact_solution(*s.domain.scene)) return errors;
+  const MaterialConstants& m = s.domain.coefficients.material;
+  const auto P11 = [&](const PointState& p) { return exact_stress(s.domain.scene->material, m, p)[0][0]; };
+  const Vec3 middle = middle_of_box(*s.domain.mesh);
   CompensatedSum e1[2], e2[2], x1[3], x2[3];  // p1, P11; sizes of p1, P11 at t and P11 at t = 0
-  for (int n = 0; n < s.order.nodes; ++n) {
-    const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
-    const double V = s.volume[static_cast<std::size_t>(n)];
-    const PointState now = exact_solution(*s.scene, middle, X, s.t), start = exact_solution(*s.scene, middle, X, 0);
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
+    const Vec3& X = s.domain.mesh->X[static_cast<std::size_t>(n)];
+    const double V = s.domain.volume[static_cast<std::size_t>(n)];
+    const PointState now = exact_solution(*s.domain.scene, middle, X, s.state.t),
+                     start = exact_solution(*s.domain.scene, middle, X, 0);
     const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)},
                  ours[2] = {m.rho * U_row(s, n)[0], P_at(s, n, 0, 0)};
     for (int k = 0; k < 3; ++k) {
@@ -173,18 +177,6 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
   errors["P11_L1_t0"] = e1[1] / x1[2];
   errors["P11_L2_t0"] = std::sqrt(e2[1] / x2[2]);
   return errors;
-}
-
-std::string state_hash(const Simulation& s) {
-  Hash hash;
-  const auto add = [&](const double* p, std::size_t count) { hash.add(p, count * sizeof(double)); };
-  for (int n = 0; n < s.order.nodes; ++n) {
-    add(U_row(s, n), row::U);
-    const auto r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
-    if (!s.state.H[0].empty()) add(&s.state.H[0][row::H * r], row::H);
-    if (!s.state.plastic.empty()) add(&s.state.plastic[row::plastic * r], row::plastic);
-  }
-  return hash.text();
 }
 
 }  // namespace nanson

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/solver.hpp"
+#include "engine/simulation.hpp"
 
 namespace nanson {
 
@@ -25,8 +25,5 @@ void probe(const Simulation& s, const ProbePlace& place, const FieldName& name, 
 
 /// Volume-weighted relative L1 and L2 errors of p1 and P11 against the exact field at t, and of P11 against its size at t = 0 (method, section 12).
 std::map<std::string, double> exact_errors(const Simulation& s);
-
-/// FNV-1a of {v, J, F, x, H, plastic state} in mesh order: equal if and only if two states are bitwise equal, but for collisions.
-std::string state_hash(const Simulation& s);
 
 }  // namespace nanson

@@ -32,9 +32,9 @@ void add_monitor_columns(const Scene& scene, std::vector<HistoryColumn>& c) {
     c.insert(c.end(), {{"min_detF_over_J", "-"}, {"max_detF_over_J", "-"}});
 }
 
-void add_monitor_values(Simulation& s, std::vector<double>& row) {
-  const MonitorSpec& m = s.scene->monitor;
-  const Formulation f = s.scene->physics.formulation;
+void add_monitor_values(const Simulation& s, std::vector<double>& row) {
+  const MonitorSpec& m = s.domain.scene->monitor;
+  const Formulation f = s.domain.scene->physics.formulation;
   if (m.entropy) {
     const EntropyProduction e = entropy_production(s);
     row.insert(row.end(), {e.least, e.total, e.negative_share});
@@ -68,16 +68,18 @@ std::vector<Probe> place_probes(const Scene& scene, const Mesh& mesh) {
 
 std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vector<Probe>& probes) {
   std::vector<HistoryColumn> c{{"step", "-"}, {"t", "s"}, {"dt", "s"}, {"kinetic", "J"}, {"strain", "J"}};
-  if (s.scene->monitor.energy) c.insert(c.end(), {{"external_work", "J"}, {"dissipated", "J"}, {"closure", "-"}});
-  if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) c.push_back({"angular_momentum_work", "J"});
+  if (s.domain.scene->monitor.energy)
+    c.insert(c.end(), {{"external_work", "J"}, {"dissipated", "J"}, {"closure", "-"}});
+  if (s.domain.scene->monitor.energy && s.domain.scene->physics.keep_angular_momentum)
+    c.push_back({"angular_momentum_work", "J"});
   for (const char* k : axis) c.push_back({fmt::format("momentum_{}", k), "kg m/s"});
   for (const char* k : axis) c.push_back({fmt::format("angular_momentum_{}", k), "kg m^2/s"});
   c.insert(c.end(), {{"min_detF", "-"}, {"max_detF", "-"}, {"min_J", "-"}, {"max_J", "-"}, {"max_speed", "m/s"}});
   if (!s.state.plastic.empty()) c.push_back({"max_plastic_strain", "-"});
-  add_monitor_columns(*s.scene, c);
-  if (s.scene->physics.formulation == Formulation::pFp)
+  add_monitor_columns(*s.domain.scene, c);
+  if (s.domain.scene->physics.formulation == Formulation::pFp)
     c.insert(c.end(), {{"projection_iterations", "1/stage"}, {"projection_residual", "-"}});
-  for (const std::string& face : s.boundary.held_faces)
+  for (const std::string& face : s.domain.boundary.held_faces)
     for (const char* k : axis) c.push_back({fmt::format("reaction_{}_{}", face, k), "N"});
   for (const Probe& p : probes)
     for (const std::string& name : p.spec.fields) {
@@ -88,22 +90,22 @@ std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vecto
   return c;
 }
 
-std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes) {
-  const Energies& e = seen(s).energies;
+std::vector<double> history_row(const Simulation& s, const std::vector<Probe>& probes) {
+  const auto [e, x] = seen(s);
   const Momenta m = momenta(s);
-  const Extrema& x = s.watch.extrema;
-  std::vector<double> row{static_cast<double>(s.step), s.t, s.dt, e.kinetic, e.strain};
-  if (s.scene->monitor.energy)
-    row.insert(row.end(), {s.ledger.external_work, s.ledger.dissipated, energy_closure(s, e)});
-  if (s.scene->monitor.energy && s.scene->physics.keep_angular_momentum) row.push_back(s.ledger.angular_momentum_work);
+  std::vector<double> row{static_cast<double>(s.state.step), s.state.t, s.state.dt, e.kinetic, e.strain};
+  if (s.domain.scene->monitor.energy)
+    row.insert(row.end(), {s.books.external_work, s.books.dissipated, energy_closure(s, e)});
+  if (s.domain.scene->monitor.energy && s.domain.scene->physics.keep_angular_momentum)
+    row.push_back(s.books.angular_momentum_work);
   row.insert(row.end(), m.linear.begin(), m.linear.end());
   row.insert(row.end(), m.angular.begin(), m.angular.end());
   row.insert(row.end(), {x.min_detF, x.max_detF, x.min_J, x.max_J, x.max_speed});
   if (!s.state.plastic.empty()) row.push_back(x.max_plastic_strain);
   add_monitor_values(s, row);
-  if (s.scene->physics.formulation == Formulation::pFp)
-    row.insert(row.end(), {0.5 * static_cast<double>(s.projection.step_iterations), s.projection.residual});
-  for (std::size_t face = 0; face < s.boundary.held_faces.size(); ++face) {
+  if (s.domain.scene->physics.formulation == Formulation::pFp)
+    row.insert(row.end(), {0.5 * static_cast<double>(s.state.projection.step_iterations), s.state.projection.residual});
+  for (std::size_t face = 0; face < s.domain.boundary.held_faces.size(); ++face) {
     const Vec3 R = reaction(s, static_cast<int>(face));
     row.insert(row.end(), R.begin(), R.end());
   }

@@ -20,7 +20,7 @@ std::vector<Probe> place_probes(const Scene& scene, const Mesh& mesh);
 
 std::vector<HistoryColumn> history_columns(const Simulation& s, const std::vector<Probe>& probes);
 /// One value a column, in the same order.
-std::vector<double> history_row(Simulation& s, const std::vector<Probe>& probes);
+std::vector<double> history_row(const Simulation& s, const std::vector<Probe>& probes);
 
 /// Field of field_names by its name.
 const FieldName& field_named(std::string_view name);

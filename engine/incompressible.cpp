@@ -16,9 +16,10 @@ struct Residual {
 };
 
 Residual constraint_residual(Simulation& s, const ProjectionRows& rows) {
-  const Projection& p = s.projection;
+  const ProjectionSetup& p = s.domain.projection;
   const Three sum = sum_three(s, [&](const Part& part) {
-    return constraint_residual_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, p.coefficients);
+    return constraint_residual_part(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(),
+                                    rows, projection_coefficients(s));
   });
   Residual r{std::sqrt(sum.s[0]), std::sqrt(sum.s[1])};
   if (!p.closed) return r;
@@ -28,18 +29,18 @@ Residual constraint_residual(Simulation& s, const ProjectionRows& rows) {
 }
 
 std::string limit_met(const Simulation& s, int number, const Residual& r) {
-  const ProjectionSpec& spec = s.scene->projection;
+  const ProjectionSpec& spec = s.domain.scene->projection;
   return fmt::format(
       "the projection met projection.max_iterations = {} in stage {} of step {}, t = {:.6e} s: its residual is {:.3g} "
       "of the velocity gradient, projection.tolerance = {:g}; "
       "a smaller time.cfl or better shaped tets may help",
-      spec.max_iterations, number + 1, s.step + 1, s.t + s.dt, r.norm / r.scale, spec.tolerance);
+      spec.max_iterations, number + 1, s.state.step + 1, s.state.t + s.state.dt, r.norm / r.scale, spec.tolerance);
 }
 
 /// Velocity and pressure of U[1] until the constraint holds. A state that is not finite is left to the stress sweep, which reports it.
 std::string solve_constraint(Simulation& s, const ProjectionRows& rows, int number) {
-  const ProjectionSpec& spec = s.scene->projection;
-  Projection& p = s.projection;
+  const ProjectionSpec& spec = s.domain.scene->projection;
+  Projection& p = s.state.projection;
   long spent = 0;
   ++p.stages;
   for (;;) {
@@ -58,8 +59,8 @@ std::string solve_constraint(Simulation& s, const ProjectionRows& rows, int numb
 }
 
 /// U^(n+1) = (U^n + U**)/2 (paper, eq. 50); at nu = 0.5 the pressure is the last stage's.
-void average_part(const Part& part, State& u, Projection& p) {
-  const bool keeps_pressure = p.coefficients.inverse_kappa == 0;
+void average_part(const Part& part, State& u, bool keeps_pressure) {
+  Projection& p = u.projection;
   for (int n = part.node_begin; n < part.node_end; ++n) {
     double *U = &u.U[0][row::U * static_cast<std::size_t>(n)], *last = &u.U[1][row::U * static_cast<std::size_t>(n)];
     for (int k = 0; k < row::U; ++k) U[k] = k == 3 && keeps_pressure ? last[k] : 0.5 * (U[k] + last[k]);
@@ -71,31 +72,31 @@ void average_part(const Part& part, State& u, Projection& p) {
 }  // namespace
 
 std::string project_stage(Simulation& s, int number) {
+  const Domain& d = s.domain;
   State& u = s.state;
-  Projection& p = s.projection;
+  Projection& p = s.state.projection;
   if (number == 0) p.step_iterations = 0;
-  p.coefficients.dt = s.dt;
+  const ProjectionCoefficients k = projection_coefficients(s);
+  const std::vector<Part>& parts = d.projection.parts;
   const ProjectionRows rows = projection_rows(s, number, 1);
   std::string failure;
-  s.clock.time("projection_start", [&] {
+  s.team.clock.time("projection_start", [&] {
     for_parts(s, [&](int i, Scratch) {
-      projection_edges_part(p.parts[i], s.order.edges(), s.order.corners(), s.order.lists(), rows, p.coefficients);
+      projection_edges_part(parts[i], d.order.edges(), d.order.corners(), d.order.lists(), rows, k);
     });
-    for_parts(s, [&](int i, Scratch) {
-      projection_start_part(p.parts[i], s.order.edges(), s.order.lists(), rows, p.coefficients);
-    });
+    for_parts(s, [&](int i, Scratch) { projection_start_part(parts[i], d.order.edges(), d.order.lists(), rows, k); });
   });
-  s.clock.time("projection", [&] { failure = solve_constraint(s, rows, number); });
-  s.clock.time("stress", [&] {
+  s.team.clock.time("projection", [&] { failure = solve_constraint(s, rows, number); });
+  s.team.clock.time("stress", [&] {
     Rows next{};
-    next.X = u.X.data();
+    next.X = d.X.data();
     next.U_new = u.U[number == 0 ? 1 : 0].data();
     next.W_new = u.W[0].data();
     next.PH_new = u.PH[0].data();
     for_parts(s, [&](int i, Scratch) {
-      const Part& part = s.order.parts[i];
-      if (number == 1) average_part(part, u, p);
-      s.reports[i] = s.functions.stress(part, next, s.coefficients, u.step_length.data());
+      const Part& part = d.order.parts[i];
+      if (number == 1) average_part(part, u, k.inverse_kappa == 0);
+      s.state.reports[i] = d.functions.stress(part, next, d.coefficients, d.step_length.data());
     });
   });
   return failure;

@@ -2,7 +2,7 @@
 #pragma once
 #include <string>
 
-#include "engine/solver.hpp"
+#include "engine/simulation.hpp"
 
 namespace nanson {
 

@@ -2,7 +2,7 @@
 #pragma once
 #include <optional>
 
-#include "engine/solver.hpp"
+#include "engine/simulation.hpp"
 
 namespace nanson {
 
@@ -21,24 +21,28 @@ struct Involutions {
   double F = 0;         // [-] change of F - grad x since the start, which is O(h^2) when F(0) is analytic
   double H = 0, J = 0;  // [-] H - cof F (pFHJ); J - det F (pFJ, pFHJ)
 };
-Energies energies(Simulation& s);
-Momenta momenta(Simulation& s);
+Energies energies(const Simulation& s);
+Momenta momenta(const Simulation& s);
 /// In one sweep over the parts.
-Extrema extrema(Simulation& s);
+Extrema extrema(const Simulation& s);
 
-EntropyProduction entropy_production(Simulation& s);
-Involutions involutions(Simulation& s);
+EntropyProduction entropy_production(const Simulation& s);
+Involutions involutions(const Simulation& s);
 
 /// F - grad x, 9 a row: what a run with monitor.involutions keeps of its start.
-std::vector<double> gradient_mismatch(Simulation& s);
+Aligned<double> gradient_mismatch(const Simulation& s);
 
 /// A sentence when time.cfl is above the largest that was sound with this scheme (configs/studies/measured/stability_cfl).
 std::optional<std::string> cfl_warning(const Scene& scene);
 
 /// Takes the present state into s.watch; every sixteenth time with the checkerboard measure, which costs a sweep over the edges.
 void look(Simulation& s);
-/// Energies and extrema of the present step, looked at once.
-const Watch& seen(Simulation& s);
+/// Energies and extrema of the present state: of the last look where it was at this step.
+struct Seen {
+  Energies energies;
+  Extrema extrema;
+};
+Seen seen(const Simulation& s);
 /// What the last look found, as warnings of s.watch or as the reason to go no further.
 std::optional<Breakdown> ruin(Simulation& s);
 /// Adds a warning unless there is one of its cause.
@@ -49,9 +53,9 @@ void warn(Simulation& s, std::string_view cause, std::string text);
 double energy_closure(const Simulation& s, const Energies& e);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
-double linear_momentum_drift(Simulation& s);  // NaN where it is not known (initial.field = "manufactured")
+double linear_momentum_drift(const Simulation& s);  // NaN where it is not known (initial.field = "manufactured")
 /// |L - L(0) - angular impulse| / sum Omega |x| |p|; nothing under ssp_rk3 when supports or loads exert a torque: its exact arms are known for TVD-RK2 only.
-std::optional<double> angular_momentum_drift(Simulation& s);
+std::optional<double> angular_momentum_drift(const Simulation& s);
 
 /// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
 Vec3 reaction(const Simulation& s, int face);
@@ -63,7 +67,7 @@ struct Checkerboard {
   double measure = 0;  // [-]
   double size = 0;     // [N^2] sum W (p_b - p_a)^2
 };
-Checkerboard checkerboard(Simulation& s);
+Checkerboard checkerboard(const Simulation& s);
 
 /// One stage's share of the loads' work, at the velocities that the stage took its rates of.
 void book_loads(Simulation& s, const Rows& rows, double weighted_dt);
@@ -75,8 +79,8 @@ void book_stage(Simulation& s, const double* arms, double mean, bool first);
 void book_plastic_work(Simulation& s);
 
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
-Breakdown locate_breakdown(Simulation& s, int stage);
-Breakdown collapse(Simulation& s, double allowed);
+Breakdown locate_breakdown(const Simulation& s, int stage);
+Breakdown collapse(const Simulation& s, double allowed);
 /// A sentence when the total energy has exceeded initial + external work for some steps: by more than monitor.energy_tolerance of them, without monitor.energy
 /// by more than all of them, which no sound run does.
 std::optional<std::string> energy_growth(Simulation& s);

@@ -17,36 +17,37 @@ Tensor<double> tensor_of(const double* columns) {
 }  // namespace
 
 /// grad x is the Green-Gauss gradient of the nodal positions, with which dF/dt is computed too.
-std::vector<double> gradient_mismatch(Simulation& s) {
-  const auto rows_of = static_cast<std::size_t>(s.order.rows);
+Aligned<double> gradient_mismatch(const Simulation& s) {
+  const auto rows_of = static_cast<std::size_t>(s.domain.order.rows);
   Aligned<double> x(row::W * rows_of, 0.0), G(row::G * rows_of, 0.0);
   for (std::size_t r = 0; r < rows_of; ++r)
     for (std::size_t i = 0; i < 3; ++i) x[row::W * r + i] = s.state.U[0][row::U * r + 4 * (i + 1) + 3];
-  Rows rows = stage_rows(s.state, 0, 0);
+  Rows rows{};
+  rows.X = s.domain.X.data();
   rows.W = x.data();
   rows.G = G.data();
-  const auto edges = s.order.edges();
-  const auto corners = s.order.corners();
-  const auto lists = s.order.lists();
+  const auto edges = s.domain.order.edges();
+  const auto corners = s.domain.order.corners();
+  const auto lists = s.domain.order.lists();
   for_parts(s, [&](int p, Scratch) {
-    gradient_part<false, false, NodeWeights::none>(s.order.parts[static_cast<std::size_t>(p)], edges, corners, lists,
-                                                   rows, s.coefficients);
+    gradient_part<false, false, NodeWeights::none>(s.domain.order.parts[static_cast<std::size_t>(p)], edges, corners,
+                                                   lists, rows, s.domain.coefficients);
   });
-  std::vector<double> mismatch(9 * rows_of, 0.0);
+  Aligned<double> mismatch(9 * rows_of, 0.0);
   for (std::size_t r = 0; r < rows_of; ++r)
-    for (std::size_t m = 0; m < 9 && s.order.node_of[r] >= 0; ++m)
+    for (std::size_t m = 0; m < 9 && s.domain.order.node_of[r] >= 0; ++m)
       mismatch[9 * r + m] = s.state.U[0][row::U * r + 4 * (m / 3 + 1) + m % 3] - G[row::G * r + 4 * (m / 3) + m % 3];
   return mismatch;
 }
 
-Involutions involutions(Simulation& s) {
+Involutions involutions(const Simulation& s) {
   Involutions out;
-  const std::vector<double> mismatch = gradient_mismatch(s);
+  const Aligned<double> mismatch = gradient_mismatch(s);
   for (std::size_t i = 0; i < mismatch.size(); ++i)
-    out.F = std::max(out.F, std::abs(mismatch[i] - s.initial_mismatch[i]));
-  if (!evolves_J(s.scene->physics.formulation)) return out;
-  for (std::size_t r = 0; r < s.order.node_of.size(); ++r) {
-    if (s.order.node_of[r] < 0) continue;
+    out.F = std::max(out.F, std::abs(mismatch[i] - s.state.initial_mismatch[i]));
+  if (!evolves_J(s.domain.scene->physics.formulation)) return out;
+  for (std::size_t r = 0; r < s.domain.order.node_of.size(); ++r) {
+    if (s.domain.order.node_of[r] < 0) continue;
     const double* U = &s.state.U[0][row::U * r];
     const Tensor<double> F = tensor_of(U + 4), cof = cofactor(F);
     out.J = std::max(out.J, std::abs(U[3] - determinant(F, cof)));

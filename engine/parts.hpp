@@ -6,7 +6,7 @@
 #include <array>
 #include <span>
 
-#include "engine/solver.hpp"
+#include "engine/simulation.hpp"
 
 namespace nanson {
 
@@ -17,20 +17,20 @@ inline std::size_t part_scratch(const Order& o) {
   return std::max(used, CacheLineAllocator<double>::huge_page / sizeof(double));
 }
 
-inline Scratch scratch_of(Simulation& s, int thread) {
-  double* p = s.scratch[static_cast<std::size_t>(thread)].data();
-  const bool corrected = s.scene->physics.flux_correction != FluxCorrection::none;
-  const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.order.most_edges + 8),
-                       corner = 4 * static_cast<std::ptrdiff_t>(s.order.most_corners),
-                       force = 4 * static_cast<std::ptrdiff_t>(s.order.most_nodes), dG = 3 * force;
+inline Scratch scratch_of(const Simulation& s, int thread) {
+  double* p = s.team.scratch[static_cast<std::size_t>(thread)].data();
+  const bool corrected = s.domain.scene->physics.flux_correction != FluxCorrection::none;
+  const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.domain.order.most_edges + 8),
+                       corner = 4 * static_cast<std::ptrdiff_t>(s.domain.order.most_corners),
+                       force = 4 * static_cast<std::ptrdiff_t>(s.domain.order.most_nodes), dG = 3 * force;
   return {p, p + edge, p + edge + corner, p + edge + corner + force, p + edge + corner + force + dG};
 }
 
 /// Runs sweep(part index, scratch) over all parts; parts stay with their thread from sweep to sweep.
 template <class Sweep>
-void for_parts(Simulation& s, Sweep sweep) {
-  const int count = static_cast<int>(s.order.parts.size());
-#pragma omp parallel for schedule(static) num_threads(s.threads) if (count > 1)
+void for_parts(const Simulation& s, Sweep sweep) {
+  const int count = static_cast<int>(s.domain.order.parts.size());
+#pragma omp parallel for schedule(static) num_threads(s.team.threads) if (count > 1)
   for (int p = 0; p < count; ++p) sweep(p, scratch_of(s, omp_get_thread_num()));
 }
 
@@ -41,24 +41,15 @@ inline double tree_sum(std::span<const double> x) {
   return tree_sum(x.first(half)) + tree_sum(x.subspan(half));
 }
 
-/// Nodes of a part, without the padding at its end; with several materials there is padding inside too.
-inline int nodes_of(const Simulation& s, const Part& part) {
-  int end = part.node_end;
-  while (end > part.node_begin && s.order.node_of[static_cast<std::size_t>(end - 1)] < 0) --end;
-  return end - part.node_begin;
-}
-
-inline bool is_padding(const Simulation& s, int n) { return s.order.node_of[static_cast<std::size_t>(n)] < 0; }
-
 /// Stress sweep of a part into rows.W_new, PH_new; the edge buffer is free by then.
-inline PartReport stress_of_part(const Simulation& s, int p, const Rows& rows, const Coefficients& k,
+inline PartReport stress_of_part(const Domain& d, int p, const Rows& rows, const Coefficients& k,
                                  const Scratch& scratch) {
-  const double* length = s.state.step_length.data();
-  if (s.mixture.empty()) return s.functions.stress(s.order.parts[static_cast<std::size_t>(p)], rows, k, length);
+  const double* length = d.step_length.data();
+  if (d.mixture.empty()) return d.functions.stress(d.order.parts[static_cast<std::size_t>(p)], rows, k, length);
   PartReport report;
-  for (int i = s.mixture.first_run[static_cast<std::size_t>(p)];
-       i < s.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i) {
-    const PartReport run = mixed_stress(s.mixture, s.mixture.runs[static_cast<std::size_t>(i)], rows, k, length,
+  for (int i = d.mixture.first_run[static_cast<std::size_t>(p)];
+       i < d.mixture.first_run[static_cast<std::size_t>(p) + 1]; ++i) {
+    const PartReport run = mixed_stress(d.mixture, d.mixture.runs[static_cast<std::size_t>(i)], rows, k, length,
                                         scratch.edge);
     report.fastest = run.fastest > report.fastest ? run.fastest : report.fastest;
     report.broken = report.broken || run.broken;
@@ -69,27 +60,27 @@ inline PartReport stress_of_part(const Simulation& s, int p, const Rows& rows, c
 
 /// Sum of term(part index) over all parts.
 template <class Term>
-double sum_over_parts(Simulation& s, Term term) {
-  for_parts(s, [&](int p, Scratch) { s.part_sums[static_cast<std::size_t>(p)] = term(p); });
-  return tree_sum(s.part_sums);
+double sum_over_parts(const Simulation& s, Term term) {
+  for_parts(s, [&](int p, Scratch) { s.team.part_sums[static_cast<std::size_t>(p)] = term(p); });
+  return tree_sum(s.team.part_sums);
 }
 
-/// Sums of the first `count` entries of all rows of s.part_rows.
+/// Sums of the first `count` entries of all rows of s.team.part_rows.
 template <std::size_t count>
-std::array<double, count> tree_sums(Simulation& s) {
+std::array<double, count> tree_sums(const Simulation& s) {
   std::array<double, count> sums;
   for (std::size_t i = 0; i < count; ++i) {
-    for (std::size_t p = 0; p < s.part_rows.size(); ++p) s.part_sums[p] = s.part_rows[p][i];
-    sums[i] = tree_sum(s.part_sums);
+    for (std::size_t p = 0; p < s.team.part_rows.size(); ++p) s.team.part_sums[p] = s.team.part_rows[p][i];
+    sums[i] = tree_sum(s.team.part_sums);
   }
   return sums;
 }
 
 /// Sums over all parts of what add(part index, sums of the part) adds to zeros.
 template <std::size_t count, class Add>
-std::array<double, count> sums_over_parts(Simulation& s, Add add) {
+std::array<double, count> sums_over_parts(const Simulation& s, Add add) {
   for_parts(s, [&](int p, Scratch) {
-    double* sums = s.part_rows[static_cast<std::size_t>(p)].data();
+    double* sums = s.team.part_rows[static_cast<std::size_t>(p)].data();
     for (std::size_t i = 0; i < count; ++i) sums[i] = 0;
     add(p, sums);
   });

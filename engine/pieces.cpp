@@ -60,28 +60,28 @@ std::string place(const Vec3& at) { return fmt::format("({:.4g}, {:.4g}, {:.4g})
 }  // namespace
 
 std::vector<Piece> pieces(const Simulation& s) {
-  const Mesh& mesh = *s.mesh;
+  const Mesh& mesh = *s.domain.mesh;
   const std::vector<int> piece_of = piece_of_nodes(mesh);
   std::vector<Piece> out(static_cast<std::size_t>(*std::ranges::max_element(piece_of)) + 1);
   const auto at_row = [&](int row) -> Piece& {
     return out[static_cast<std::size_t>(
-        piece_of[static_cast<std::size_t>(s.order.node_of[static_cast<std::size_t>(row)])])];
+        piece_of[static_cast<std::size_t>(s.domain.order.node_of[static_cast<std::size_t>(row)])])];
   };
-  const Vec3& g = s.scene->body_force;
+  const Vec3& g = s.domain.scene->body_force;
   for (std::size_t n = 0; n < mesh.X.size(); ++n) {
     Piece& p = out[static_cast<std::size_t>(piece_of[n])];
-    const int r = s.order.row_of[n];
+    const int r = s.domain.order.row_of[n];
     const double* v = &s.state.U[0][static_cast<std::size_t>(row::U * r)];
     ++p.nodes;
-    p.mass += s.volume[n] * density(s, r);
+    p.mass += s.domain.volume[n] * density(s.domain, r);
     for (std::size_t k = 0; k < 3; ++k) p.centre[k] += mesh.X[n][k];
     p.moves = p.moves || v[0] != 0 || v[1] != 0 || v[2] != 0;
     p.pushed = p.pushed || g[0] != 0 || g[1] != 0 || g[2] != 0;
   }
   for (Piece& p : out)
     for (double& x : p.centre) x /= p.nodes;
-  for (const Constraint& h : s.boundary.constraints) at_row(h.node).held = true;
-  for (const auto& face : s.boundary.slot_nodes) at_row(face[0]).pushed = true;
+  for (const Constraint& h : s.domain.boundary.constraints) at_row(h.node).held = true;
+  for (const auto& face : s.domain.boundary.slot_nodes) at_row(face[0]).pushed = true;
   if (out.size() > 1) find_gaps(mesh, piece_of, out);
   std::ranges::stable_sort(out, [](const Piece& a, const Piece& b) { return a.mass > b.mass; });
   return out;

@@ -15,17 +15,17 @@ namespace {
 struct Sweeps {
   Simulation& s;
   const ProjectionRows& rows;
-  const ProjectionCoefficients& k = s.projection.coefficients;
-  const EdgeArrays edges = s.order.edges();
-  const CornerArrays corners = s.order.corners();
-  const NodeLists lists = s.order.lists();
-  const bool closed = s.projection.closed;
-  const double total_volume = s.projection.total_volume;
+  const ProjectionCoefficients k = projection_coefficients(s);
+  const EdgeArrays edges = s.domain.order.edges();
+  const CornerArrays corners = s.domain.order.corners();
+  const NodeLists lists = s.domain.order.lists();
+  const bool closed = s.domain.projection.closed;
+  const double total_volume = s.domain.projection.total_volume;
 
   double mean(double sum) const { return closed ? sum / total_volume : 0.0; }
   void force(double keep, double step) {
     for_parts(s, [&](int p, Scratch) {
-      pressure_force_part(s.projection.parts[p], edges, corners, lists, rows, k, keep, step);
+      pressure_force_part(s.domain.projection.parts[p], edges, corners, lists, rows, k, keep, step);
     });
   }
   Three apply() {
@@ -37,7 +37,7 @@ struct Sweeps {
     });
   }
   void direction(double mean_of_z, double beta) {
-    for_parts(s, [&](int p, Scratch) { pressure_direction_part(s.projection.parts[p], rows, mean_of_z, beta); });
+    for_parts(s, [&](int p, Scratch) { pressure_direction_part(s.domain.projection.parts[p], rows, mean_of_z, beta); });
   }
 };
 
@@ -60,11 +60,12 @@ PressureSolve conjugate_gradients(Sweeps& sweep, double norm, double goal, int m
 
 PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal, int most) {
   Simulation& s = sweep.s;
-  Projection& p = s.projection;
+  Projection& p = s.state.projection;
   const double dt = sweep.k.dt, speed = length / dt, gamma = sweep.k.rho * speed * speed;
-  for_parts(s,
-            [&](int i, Scratch) { s.part_sums[i] = pseudo_step_part(p.parts[i], sweep.edges, sweep.rows, 1 / speed); });
-  const double dtau = *std::min_element(s.part_sums.begin(), s.part_sums.end()), keep = 1 / (1 + dtau / dt);
+  for_parts(s, [&](int i, Scratch) {
+    s.team.part_sums[i] = pseudo_step_part(s.domain.projection.parts[i], sweep.edges, sweep.rows, 1 / speed);
+  });
+  const double dtau = *std::min_element(s.team.part_sums.begin(), s.team.part_sums.end()), keep = 1 / (1 + dtau / dt);
   std::fill(p.d.begin(), p.d.end(), 0.0);
   std::fill(p.Kd.begin(), p.Kd.end(), 0.0);
   std::fill(p.V.begin(), p.V.end(), 0.0);
@@ -72,12 +73,14 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
   PressureSolve out{0, norm};
   double mean = 0, sum = 0;
   while (out.norm > goal && out.iterations < most) {
-    sum = sum_over_parts(
-        s, [&](int i) { return pseudo_pressure_part(p.parts[i], sweep.rows, sweep.k, gamma * dtau, mean); });
+    sum = sum_over_parts(s, [&](int i) {
+      return pseudo_pressure_part(s.domain.projection.parts[i], sweep.rows, sweep.k, gamma * dtau, mean);
+    });
     sweep.force(keep, keep * dtau);
     mean = sweep.mean(sweep.apply().s[1]);
     ++out.iterations;
-    out.norm = std::sqrt(sum_over_parts(s, [&](int i) { return pseudo_residual_part(p.parts[i], sweep.rows, mean); }));
+    out.norm = std::sqrt(
+        sum_over_parts(s, [&](int i) { return pseudo_residual_part(s.domain.projection.parts[i], sweep.rows, mean); }));
   }
   if (sweep.closed)
     for (double& d : p.d) d -= sum / sweep.total_volume;
@@ -87,22 +90,44 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
 
 }  // namespace
 
+ProjectionCoefficients projection_coefficients(const Simulation& s) {
+  ProjectionCoefficients k = s.domain.projection.coefficients;
+  k.dt = s.state.dt;
+  return k;
+}
+
 ProjectionRows projection_rows(Simulation& s, int from, int to) {
   State& u = s.state;
-  Projection& p = s.projection;
-  return {u.X.data(),           u.W[u.now].data(),    u.PH[u.now].data(),
-          u.G.data(),           u.step_length.data(), s.boundary.constraints.data(),
-          p.held.data(),        p.E.data(),           p.B.data(),
-          u.U[1].data(),        p.H.data(),           p.volume[from].data(),
-          p.taken[from].data(), p.volume[to].data(),  p.taken[to].data(),
-          p.fixed.data(),       p.lag.data(),         p.inverse_diagonal.data(),
-          p.weight_sum.data(),  p.R.data(),           p.d.data(),
-          p.V.data(),           p.Kd.data(),          p.removed.data()};
+  Projection& p = s.state.projection;
+  return {s.domain.X.data(),
+          u.W[u.now].data(),
+          u.PH[u.now].data(),
+          u.G.data(),
+          s.domain.step_length.data(),
+          s.domain.boundary.constraints.data(),
+          s.domain.projection.held.data(),
+          p.E.data(),
+          p.B.data(),
+          u.U[1].data(),
+          p.H.data(),
+          p.volume[from].data(),
+          p.taken[from].data(),
+          p.volume[to].data(),
+          p.taken[to].data(),
+          p.fixed.data(),
+          p.lag.data(),
+          p.inverse_diagonal.data(),
+          p.weight_sum.data(),
+          p.R.data(),
+          p.d.data(),
+          p.V.data(),
+          p.Kd.data(),
+          p.removed.data()};
 }
 
 PressureSolve solve_pressure(Simulation& s, const ProjectionRows& rows, double norm, double goal, int most) {
   Sweeps sweep{s, rows};
-  const ProjectionSpec& spec = s.scene->projection;
+  const ProjectionSpec& spec = s.domain.scene->projection;
   return spec.solver == ProjectionSolver::cg ? conjugate_gradients(sweep, norm, goal, most)
                                              : pseudo_time(sweep, spec.length_scale, norm, goal, most);
 }

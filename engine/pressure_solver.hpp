@@ -9,6 +9,9 @@ struct PressureSolve {
   double norm = 0;  // sqrt(sum R^2/Omega) of the linear residual that is left
 };
 
+/// Those of the scene, with the step.
+ProjectionCoefficients projection_coefficients(const Simulation& s);
+
 /// Rows of the projection of a stage that starts from `from` and ends in `to` (0 or 1).
 ProjectionRows projection_rows(Simulation& s, int from, int to);
 
@@ -17,9 +20,9 @@ PressureSolve solve_pressure(Simulation& s, const ProjectionRows& rows, double n
 
 /// Sums of term(part) over the parts without padding, in an order that no thread count changes.
 template <class Term>
-Three sum_three(Simulation& s, Term term) {
+Three sum_three(const Simulation& s, Term term) {
   const auto sum = sums_over_parts<3>(s, [&](int p, double* out) {
-    const Three t = term(s.projection.parts[static_cast<std::size_t>(p)]);
+    const Three t = term(s.domain.projection.parts[static_cast<std::size_t>(p)]);
     for (int k = 0; k < 3; ++k) out[k] = t.s[k];
   });
   return {{sum[0], sum[1], sum[2]}};

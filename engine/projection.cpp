@@ -1,4 +1,4 @@
-// Allocation of the projection's rows, and whether the supports close the domain.
+// Coefficients of the projection, and whether the supports close the domain.
 #include "engine/projection.hpp"
 
 #include <cmath>
@@ -29,25 +29,16 @@ bool supports_close(const Order& o, const Boundary& boundary, const std::vector<
 
 }  // namespace
 
-Projection make_projection(const Scene& scene, const Order& order, const Boundary& boundary, const Aligned<double>& X,
-                           const MaterialConstants& material) {
-  Projection p;
+ProjectionSetup make_projection_setup(const Scene& scene, const Order& order, const Boundary& boundary,
+                                      const Aligned<double>& X, const MaterialConstants& material) {
+  ProjectionSetup p;
   if (scene.physics.formulation != Formulation::pFp) return p;
-  const std::size_t rows = static_cast<std::size_t>(order.rows);
   p.parts = order.parts;
   for (Part& part : p.parts)
     while (part.node_end > part.node_begin && order.node_of[part.node_end - 1] < 0) --part.node_end;
-  p.E.assign(row::E * order.a.size(), 0.0);
-  p.B.assign(row::B * order.corner_b.size(), 0.0);
-  p.H.assign(row::H * rows, 0.0);
-  p.V.assign(row::V * rows, 0.0);
-  for (auto* v : {&p.volume[0], &p.volume[1], &p.taken[0], &p.taken[1], &p.fixed, &p.lag, &p.inverse_diagonal,
-                  &p.weight_sum, &p.R, &p.d, &p.Kd})
-    v->assign(rows, 0.0);
-  p.held.assign(rows, -1);
+  p.held.assign(static_cast<std::size_t>(order.rows), -1);
   for (std::size_t i = 0; i < boundary.constraints.size(); ++i)
     p.held[boundary.constraints[i].node] = static_cast<std::int32_t>(i);
-  p.removed.assign(3 * boundary.constraints.size(), 0.0);
   for (int n = 0; n < order.rows; ++n)
     if (order.node_of[n] >= 0) p.total_volume += 1.0 / X[row::X * n + 3];
   ProjectionCoefficients& k = p.coefficients;
@@ -58,14 +49,6 @@ Projection make_projection(const Scene& scene, const Order& order, const Boundar
   k.still = material.cs;
   p.closed = k.inverse_kappa == 0 && supports_close(order, boundary, p.held);
   return p;
-}
-
-std::size_t projection_bytes(const Projection& p) {
-  std::size_t doubles = p.E.size() + p.B.size() + p.H.size() + p.V.size() + p.removed.size();
-  for (const auto* v : {&p.volume[0], &p.volume[1], &p.taken[0], &p.taken[1], &p.fixed, &p.lag, &p.inverse_diagonal,
-                        &p.weight_sum, &p.R, &p.d, &p.Kd})
-    doubles += v->size();
-  return 8 * doubles + 4 * p.held.size();
 }
 
 }  // namespace nanson

@@ -1,4 +1,5 @@
-// What the incompressible scheme owns beside the state: edge rows, cofactors, volume taken by the stabilisation, vectors of the iteration, and its counts.
+// What the incompressible scheme adds to domain and state: which nodes it projects and what holds them; edge rows, cofactors, volume taken by the stabilisation, vectors of the
+// iteration, and its counts.
 #pragma once
 #include <string>
 #include <vector>
@@ -10,29 +11,28 @@
 
 namespace nanson {
 
-struct Projection {
-  std::vector<Part> parts;  // those of the order without their padding
-  Aligned<double> E, B;     // per edge, per corner
-  Aligned<double> H, V;     // nodal rows
-  Aligned<double> volume[2],
-      taken[2];  // Q [-] and its rate [m^3/s]: at the start of the step (and after it), of a stage
-  Aligned<double> fixed, lag, inverse_diagonal, weight_sum, R, d, Kd;
+/// Never changes after set-up; empty unless the formulation is pFp.
+struct ProjectionSetup {
+  std::vector<Part> parts;         // those of the order without their padding
   std::vector<std::int32_t> held;  // row -> its constraint, -1 without
-  std::vector<double> removed;     // [N] 3 a constraint
   double total_volume = 0;         // [m^3]
   bool closed =
       false;  // every boundary node is held along its normal and 1/kappa = 0: the pressure's constant is free, its mean is kept at 0
+  ProjectionCoefficients coefficients;  // without dt
+};
+ProjectionSetup make_projection_setup(const Scene& scene, const Order& order, const Boundary& boundary,
+                                      const Aligned<double>& X, const MaterialConstants& material);
 
-  ProjectionCoefficients coefficients;
+struct Projection {
+  Aligned<double> E, B;  // per edge, per corner
+  Aligned<double> H, V;  // nodal rows
+  Aligned<double> volume[2],
+      taken[2];  // Q [-] and its rate [m^3/s]: at the start of the step (and after it), of a stage
+  Aligned<double> fixed, lag, inverse_diagonal, weight_sum, R, d, Kd;
+  Aligned<double> removed;                      // [N] 3 a constraint
   long iterations = 0, rounds = 0, stages = 0;  // of the run: iterations, solves with a residual of their own, stages
   double residual = 0;                          // of the last stage, relative to the tolerance's scale
   long step_iterations = 0;                     // of the last step
 };
-
-/// Empty unless the formulation is pFp.
-Projection make_projection(const Scene& scene, const Order& order, const Boundary& boundary, const Aligned<double>& X,
-                           const MaterialConstants& material);
-
-std::size_t projection_bytes(const Projection& p);
 
 }  // namespace nanson

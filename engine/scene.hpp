@@ -9,11 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "engine/vec3.hpp"
 #include "kernels/traits.hpp"
 
 namespace nanson {
-
-using Vec3 = std::array<double, 3>;
 
 enum class MeshSource { box, cylinder, needle, file };
 enum class Split { alternating, kuhn };

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "engine/angular_momentum.hpp"
+#include "engine/current_areas.hpp"
 #include "engine/incompressible.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
@@ -13,20 +15,34 @@
 namespace nanson {
 namespace {
 
-/// U_new = old U_old + stage (U_stage + dt dU/dt); `mean` is the stage's share in the step's mean rate.
+/// U_new = old U_old + stage (U_stage + dt dU/dt).
 struct RungeKuttaStage {
-  double old, stage, mean;
+  double old, stage;
+  double mean;   // the stage's share in the step's mean rate
+  double at;     // [dt] after t: the time of the state whose rates it takes
+  int from, to;  // rows of U that it takes its rates of and writes
+  bool last;
+  bool at_the_next;  // its rates are of t + dt: the next step's first stage takes its flux correction
 };
-constexpr RungeKuttaStage tvd_rk2[] = {{0, 1, 0.5}, {0.5, 0.5, 0.5}};
-constexpr RungeKuttaStage projected_rk2[] = {{0, 1, 0.5}, {0, 1, 0.5}};  // the projection averages itself
-constexpr RungeKuttaStage ssp_rk3[] = {{0, 1, 1.0 / 6}, {0.75, 0.25, 1.0 / 6}, {1.0 / 3, 2.0 / 3, 2.0 / 3}};
+constexpr RungeKuttaStage tvd_rk2[] = {{0, 1, 0.5, 0, 0, 1, false, false}, {0.5, 0.5, 0.5, 1, 1, 0, true, true}};
+constexpr RungeKuttaStage projected_rk2[] = {{0, 1, 0.5, 0, 0, 1, false, false},  // the projection averages itself
+                                             {0, 1, 0.5, 1, 1, 1, true, true}};
+constexpr RungeKuttaStage ssp_rk3[] = {{0, 1, 1.0 / 6, 0, 0, 1, false, false},
+                                       {0.75, 0.25, 1.0 / 6, 1, 1, 1, false, false},
+                                       {1.0 / 3, 2.0 / 3, 2.0 / 3, 0.5, 1, 0, true, false}};
+
+std::span<const RungeKuttaStage> stages_of(const Scene& scene) {
+  if (scene.physics.formulation == Formulation::pFp) return projected_rk2;
+  if (scene.time.integrator == Integrator::tvd_rk2) return tvd_rk2;
+  return ssp_rk3;
+}
 
 /// Force on each corner of the loaded faces at time t, on the stage's geometry; returns their sum [N].
 Vec3 compute_loads(Simulation& s, const double* U, double t) {
   Vec3 sum{};
   std::fill(s.state.loads.begin(), s.state.loads.end(), 0.0);
-  for (const LoadedFace& f : s.boundary.loaded) {
-    const double factor = value_at(s.boundary.conditions[static_cast<std::size_t>(f.condition)].time, t);
+  for (const LoadedFace& f : s.domain.boundary.loaded) {
+    const double factor = value_at(s.domain.boundary.conditions[static_cast<std::size_t>(f.condition)].time, t);
     Vec3 force = f.corner_force;
     if (f.kind
         == BoundaryKind::
@@ -47,114 +63,115 @@ Vec3 compute_loads(Simulation& s, const double* U, double t) {
 }
 
 bool broken(const Simulation& s) {
-  return std::any_of(s.reports.begin(), s.reports.end(), [](const PartReport& r) { return r.broken; });
+  return std::any_of(s.state.reports.begin(), s.state.reports.end(), [](const PartReport& r) { return r.broken; });
+}
+
+Coefficients coefficients_of(const Simulation& s, const RungeKuttaStage& rk) {
+  Coefficients k = s.domain.coefficients;
+  k.old_weight = rk.old;
+  k.stage_weight = rk.stage;
+  k.dt = rk.stage * s.state.dt;
+  k.commits = rk.last;
+  k.takes_lagged = rk.from == 0 && s.state.has_lagged_correction;
+  k.leaves_lagged = rk.at_the_next && s.domain.scene->physics.flux_correction != FluxCorrection::none;
+  k.acceleration = s.state.acceleration.data();
+  return k;
 }
 
 /// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
 /// The incompressible scheme projects before the stress. Returns why the run must not go on, or nothing.
-std::string stage(Simulation& s, const RungeKuttaStage& rk, int number, int stages) {
+std::string stage(Simulation& s, const RungeKuttaStage& rk) {
+  const Domain& d = s.domain;
   State& u = s.state;
-  const bool projected = s.scene->physics.formulation == Formulation::pFp;
-  const int from = number == 0 ? 0 : 1, to = number == stages - 1 && !projected ? 0 : 1;
-  Coefficients k = s.coefficients;
-  k.old_weight = rk.old;
-  k.stage_weight = rk.stage;
-  k.dt = rk.stage * s.dt;
-  k.commits = number == stages - 1;
-  k.takes_lagged = number == 0 && u.has_lagged_correction;
-  k.leaves_lagged = s.scene->physics.flux_correction != FluxCorrection::none && stages == 2
-                    && number == 1;  // at t + dt, as the next step's first stage
-  const PartFunctions& functions = k.takes_lagged ? s.lagged_functions : s.functions;
-  Rows rows = stage_rows(u, from, to);
-  rows.dJ = s.current.dJ.data();
-  rows.rho = s.mixture.rho.data();
-  const auto edges = s.order.edges();
-  const auto corners = s.order.corners();
-  const auto lists = s.order.lists();
-  const EdgeArrays flux_edges = nanson::flux_edges(s);
-  const CornerArrays flux_corners = nanson::flux_corners(s);
-  const bool linear = s.scene->physics.reconstruction != Reconstruction::constant
-                      || projected;  // the projection needs neighbours' pressure gradients
-  const bool keeps = s.scene->physics.keep_angular_momentum;
-  const double t = s.t + (number == 0 ? 0 : number == 1 ? s.dt : 0.5 * s.dt);
+  const PhysicsSpec& physics = d.scene->physics;
+  const bool projected = physics.formulation == Formulation::pFp, keeps = physics.keep_angular_momentum;
+  const bool neighbours = physics.reconstruction != Reconstruction::constant || projected;  // read their gradients
+  const Coefficients k = coefficients_of(s, rk);
+  const PartFunctions& functions = k.takes_lagged ? d.lagged_functions : d.functions;
+  Rows rows = stage_rows(d, u, rk.from, rk.to);
+  const auto edges = d.order.edges();
+  const auto corners = d.order.corners();
+  const auto lists = d.order.lists();
+  const EdgeArrays edges_of_flux = flux_edges(s);
+  const CornerArrays corners_of_flux = flux_corners(s);
+  const double t = u.t + rk.at * u.dt;
   const double* arms = u.U[0].data();  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
 
-  if (!s.boundary.loaded.empty()) {
+  if (!d.boundary.loaded.empty()) {
     const Vec3 sum = compute_loads(s, rows.U_stage, t);
-    for (int i = 0; i < 3; ++i) s.ledger.impulse[i] += rk.mean * s.dt * sum[i];
+    for (int i = 0; i < 3; ++i) s.books.impulse[i] += rk.mean * u.dt * sum[i];
   }
-  if (has_current_areas(s.scene->physics.description))
-    s.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
-  if (linear)
-    s.clock.time("gradient", [&] {
-      for_parts(s, [&](int p, Scratch) { functions.gradient(s.order.parts[p], edges, corners, lists, rows, k); });
+  if (has_current_areas(physics.description))
+    s.team.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
+  if (neighbours)
+    s.team.clock.time("gradient", [&] {
+      for_parts(s, [&](int p, Scratch) { functions.gradient(d.order.parts[p], edges, corners, lists, rows, k); });
     });
   if (functions.corrects_stress) {  // what the edges read and what the stress overwrites change places
     std::swap(u.PH[0], u.PH[1]);
     rows.PH = u.PH[u.now].data();
     rows.PH_new = u.PH[1 - u.now].data();
   }
-  s.clock.time("flux_update_stress", [&] {
+  s.team.clock.time("flux_update_stress", [&] {
     for_parts(s, [&](int p, Scratch scratch) {
-      const Part& part = s.order.parts[p];
+      const Part& part = d.order.parts[p];
       Rows mine = rows;
-      if (!linear) {  // gradients of this part only, as dF/dt
+      if (!neighbours) {  // gradients of this part only, as dF/dt
         mine.G = scratch.dG - row::G * static_cast<std::ptrdiff_t>(part.node_begin);
         functions.gradient(part, edges, corners, lists, mine, k);
       }
-      s.part_sums[p] = functions.edge_flux(part, flux_edges, flux_corners, lists, mine, k, scratch);
-      functions.accumulate_update(part, edges, lists, mine, k, s.boundary.constraints.data(), u.reactions.data(),
+      s.team.part_sums[p] = functions.edge_flux(part, edges_of_flux, corners_of_flux, lists, mine, k, scratch);
+      functions.accumulate_update(part, edges, lists, mine, k, d.boundary.constraints.data(), u.reactions.data(),
                                   scratch);
-      if (!s.manufactured.waves.empty())
-        add_body_force(s.manufactured, *s.scene, k.material, part, t, k.dt, mine.U_new);
+      if (!d.manufactured.waves.empty())
+        add_body_force(d.manufactured, *d.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
-      if (!projected) s.reports[p] = stress_of_part(s, p, mine, k, scratch);
+      if (!projected) u.reports[p] = stress_of_part(d, p, mine, k, scratch);
     });
   });
-  book_loads(s, rows, rk.mean * s.dt);
-  if (s.scene->monitor.energy) s.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * s.dt); });
+  book_loads(s, rows, rk.mean * u.dt);
+  if (d.scene->monitor.energy) s.team.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * u.dt); });
   if (keeps && !broken(s))
-    s.clock.time("keep_angular_momentum",
-                 [&] { s.ledger.angular_momentum_work += rk.mean * s.dt * keep_angular_momentum(s, rows, k, arms); });
-  const std::string failure = projected ? project_stage(s, number) : std::string();
-  book_stage(s, arms, rk.mean, number == 0);
+    s.team.clock.time("keep_angular_momentum", [&] {
+      s.books.angular_momentum_work += rk.mean * u.dt * keep_angular_momentum(s, rows, k, arms);
+    });
+  const std::string failure = projected ? project_stage(s, rk.last) : std::string();
+  book_stage(s, arms, rk.mean, rk.from == 0);
   if (!projected) u.now = 1 - u.now;
   u.has_lagged_correction = k.leaves_lagged;
   return failure;
 }
 
 /// Rate of each condition's time factor over the step: prescribed velocities are then exact at t + dt, in every Runge-Kutta stage.
-void prescribe(Simulation& s, std::vector<double>& acceleration) {
-  for (std::size_t i = 0; i < acceleration.size(); ++i) {
-    const TimeFunction& f = s.boundary.conditions[i].time;
-    acceleration[i] = s.boundary.conditions[i].kind == BoundaryKind::velocity
-                          ? (value_at(f, s.t + s.dt) - value_at(f, s.t)) / s.dt
-                          : 0.0;
+void prescribe(const Boundary& boundary, State& u) {
+  for (std::size_t i = 0; i < u.acceleration.size(); ++i) {
+    const BoundarySpec& c = boundary.conditions[i];
+    u.acceleration[i] = c.kind == BoundaryKind::velocity ? (value_at(c.time, u.t + u.dt) - value_at(c.time, u.t)) / u.dt
+                                                         : 0.0;
   }
 }
 
 /// The step for the rest of the way: at most 5 % larger than the last, and `end` is hit by sharing the last two steps.
 double next_step(const Simulation& s) {
-  const TimeSpec& time = s.scene->time;
+  const TimeSpec& time = s.domain.scene->time;
   double dt = allowed_step(s);
-  if (s.step > 0) dt = std::min(dt, 1.05 * s.dt);
+  if (s.state.step > 0) dt = std::min(dt, 1.05 * s.state.dt);
   if (time.dt_max > 0) dt = std::min(dt, time.dt_max);
-  const double left = time.end - s.t;
+  const double left = time.end - s.state.t;
   return left <= dt ? left : left < 2 * dt ? 0.5 * left : dt;
 }
 
 /// Whether to go on after a step: done (so far) | breakdown | stopped, with the reason.
-std::string verdict(Simulation& s, double wall, const std::function<std::string()>& asked_to_stop,
-                    std::string& reason) {
-  const TimeSpec& time = s.scene->time;
+std::string judge_step(Simulation& s, const std::function<std::string()>& asked_to_stop, std::string& reason) {
+  const TimeSpec& time = s.domain.scene->time;
   const double allowed = allowed_step(s);
-  if (!(allowed >= time.dt_collapse * s.first_dt)) {
+  if (!(allowed >= time.dt_collapse * s.state.first_dt)) {
     s.breakdown = collapse(s, allowed);
     reason = s.breakdown->text;
     return "breakdown";
   }
-  if (s.step % s.scene->output.history_every == 0 || s.t >= time.end) {
-    s.clock.time("watch", [&] {
+  if (s.state.step % s.domain.scene->output.history_every == 0 || s.state.t >= time.end) {
+    s.team.clock.time("watch", [&] {
       look(s);
       s.breakdown = ruin(s);
     });
@@ -163,11 +180,11 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
       return "breakdown";
     }
   }
-  if (s.t >= time.end) return "done";
-  if (time.max_steps > 0 && s.step >= time.max_steps) {
+  if (s.state.t >= time.end) return "done";
+  if (time.max_steps > 0 && s.state.step >= time.max_steps) {
     reason = "time.max_steps reached";
     s.stopped_by = "max_steps";
-  } else if (time.max_wall_s > 0 && wall >= time.max_wall_s) {
+  } else if (time.max_wall_s > 0 && s.team.wall_s >= time.max_wall_s) {
     reason = "time.max_wall_s reached";
     s.stopped_by = "max_wall_s";
   } else if (asked_to_stop) {
@@ -180,82 +197,73 @@ std::string verdict(Simulation& s, double wall, const std::function<std::string(
 }  // namespace
 
 void advance(Simulation& s) {
-  prescribe(s, s.acceleration);
-  s.coefficients.acceleration = s.acceleration.data();
-  const bool rk2 = s.scene->time.integrator == Integrator::tvd_rk2;
-  const RungeKuttaStage* stages = s.scene->physics.formulation == Formulation::pFp ? projected_rk2
-                                  : rk2                                            ? tvd_rk2
-                                                                                   : ssp_rk3;
-  const int count = rk2 ? 2 : 3;
-  for (int i = 0; i < count; ++i) {
-    const std::string failure = stage(s, stages[i], i, count);
-    const bool stop = !failure.empty() && s.scene->projection.on_limit == OnLimit::stop;
+  State& u = s.state;
+  prescribe(s.domain.boundary, u);
+  int number = 0;
+  for (const RungeKuttaStage& rk : stages_of(*s.domain.scene)) {
+    ++number;
+    const std::string failure = stage(s, rk);
+    const bool stop = !failure.empty() && s.domain.scene->projection.on_limit == OnLimit::stop;
     if (!failure.empty() && !stop) warn(s, "iteration_limit", failure);
-    if (broken(s) || stop) {
-      if (i + 1 < count) {
-        s.state.U[0] = s.state.U[1];
-        s.state.H[0] = s.state.H[1];
-      }
-      s.breakdown = broken(s) ? locate_breakdown(s, i + 1) : Breakdown{-1, failure, "iteration_limit"};
-      break;
+    if (!broken(s) && !stop) continue;
+    if (!rk.last) {
+      u.U[0] = u.U[1];
+      u.H[0] = u.H[1];
     }
+    s.breakdown = broken(s) ? locate_breakdown(s, number) : Breakdown{-1, failure, "iteration_limit"};
+    break;
   }
-  if (s.scene->monitor.energy) book_plastic_work(s);
-  s.t += s.dt;
-  ++s.step;
-}
-
-double allowed_step(const Simulation& s) {
-  double fastest = 0;
-  for (const PartReport& r : s.reports) fastest = std::max(fastest, r.fastest);
-  return s.scene->time.cfl / fastest;
+  if (s.domain.scene->monitor.energy) book_plastic_work(s);
+  u.t += u.dt;
+  ++u.step;
 }
 
 std::string run(Simulation& s, const Observer& observer, std::string& reason) {
-  const Scene& scene = *s.scene;
+  const Scene& scene = *s.domain.scene;
+  State& u = s.state;
   const auto tell = [&](const auto& what) {
     if (what) what(s);
   };
   const double wall = wall_seconds(), cpu = cpu_seconds();
-  double next_frame = scene.output.every;
-  long last_history = 0, last_frame = 0;
+  const auto read_clocks = [&] {
+    s.team.wall_s = wall_seconds() - wall;
+    s.team.cpu_s = cpu_seconds() - cpu;
+  };
   std::string status = "done";
   look(s);
   tell(observer.on_history);
   tell(observer.on_frame);
-  while (status == "done" && s.t < scene.time.end) {
-    s.dt = next_step(s);
-    const bool last = s.dt == scene.time.end - s.t;
-    if (s.step == 0) s.first_dt = s.dt_min = s.dt_max = s.dt;
+  while (status == "done" && u.t < scene.time.end) {
+    u.dt = next_step(s);
+    const bool last = u.dt == scene.time.end - u.t;
+    if (u.step == 0) u.first_dt = u.dt_min = u.dt_max = u.dt;
     advance(s);
-    if (last) s.t = scene.time.end;
-    s.dt_min = std::min(s.dt_min, s.dt);
-    s.dt_max = std::max(s.dt_max, s.dt);
+    if (last) u.t = scene.time.end;
+    u.dt_min = std::min(u.dt_min, u.dt);
+    u.dt_max = std::max(u.dt_max, u.dt);
+    read_clocks();
     if (s.breakdown) {
       status = "breakdown";
       reason = s.breakdown->text;
-    } else status = verdict(s, wall_seconds() - wall, observer.stop, reason);
-    s.wall_s = wall_seconds() - wall;
-    s.cpu_s = cpu_seconds() - cpu;
+    } else status = judge_step(s, observer.stop, reason);
     tell(observer.on_step);
-    if (status == "done" && s.t >= scene.time.end) break;
-    if (status == "done" && s.step % scene.output.history_every == 0) {
+    if (status == "done" && u.t >= scene.time.end) break;
+    if (status == "done" && u.step % scene.output.history_every == 0) {
       tell(observer.on_history);
-      last_history = s.step;
+      u.last_history = u.step;
     }
-    if (status == "done" && scene.output.every > 0 && s.t >= next_frame) {
+    if (status == "done" && scene.output.every > 0 && u.t >= u.next_frame) {
       tell(observer.on_frame);
-      last_frame = s.step;
-      while (next_frame <= s.t) next_frame += scene.output.every;
+      u.last_frame = u.step;
+      while (u.next_frame <= u.t) u.next_frame += scene.output.every;
     }
   }
-  s.wall_s = wall_seconds() - wall;
-  s.cpu_s = cpu_seconds() - cpu;
-  if (last_history < s.step) {
-    seen(s);
+  read_clocks();
+  if (u.last_history < u.step) {
+    if (s.watch.step != u.step) look(s);
     tell(observer.on_history);
   }
-  if (last_frame < s.step) tell(observer.on_frame);
+  if (u.last_frame < u.step) tell(observer.on_frame);
   return status;
 }
 

@@ -1,42 +1,116 @@
-// Every nodal row that a scene carries: allocated by role, only what its physics needs.
+// All that a run changes: where it stands, the unknowns, and the rows that its stages work in.
 #pragma once
 #include <string>
 #include <vector>
 
-#include "engine/aligned.hpp"
-#include "engine/boundary.hpp"
-#include "engine/order.hpp"
+#include "engine/domain.hpp"
+#include "engine/node_state.hpp"
 
 namespace nanson {
 
 struct State {
-  Aligned<double> X;            // {X, 1/Omega}
-  Aligned<double> U[2];         // state at the start of the step (and after it), state of a stage
-  Aligned<double> H[2];         // pFHJ
-  Aligned<double> W[2], PH[2];  // of the stage, and being written for the next
-  Aligned<double> G;            // linear reconstruction
-  Aligned<double> dP;           // full flux correction
-  Aligned<double> q;            // pressure correction, one an edge
-  Aligned<double> GP;           // tensor pressure jump
-  Aligned<double> L, lambda;    // limiter (limited); pseudo-Laplacian and its weights (jst)
-  Aligned<double> plastic;      // hencky_j2
-  Aligned<double> step_length;  // [m] per node: dt = cfl min l/c
-  Aligned<double> loads;        // [N] 4 a loaded face
-  std::vector<double> reactions,
-      mean_reactions;  // reaction_row a constraint: of the last stage, mean of the last step's stages
-  bool has_lagged_correction =
-      false;  // the flux correction of the last stage is there for the next step's first: dG in U[1], dP within PH[now]
-  int now = 0;  // which of W, PH belongs to the present state
+  double t = 0, dt = 0;  // [s]
+  long step = 0;
+  double first_dt = 0, dt_min = 0, dt_max = 0;  // [s]
+  double next_frame = 0;                        // [s]
+  long last_history = 0, last_frame = 0;        // steps
+
+  Aligned<double> U[2];                // state at the start of the step (and after it), state of a stage
+  Aligned<double> H[2];                // pFHJ
+  Aligned<double> W[2], PH[2];         // of the stage, and being written for the next
+  Aligned<double> G;                   // linear reconstruction
+  Aligned<double> dP;                  // full flux correction
+  Aligned<double> q;                   // pressure correction, one an edge
+  Aligned<double> GP;                  // tensor pressure jump
+  Aligned<double> L;                   // limiter (limited) or pseudo-Laplacian (jst)
+  Aligned<double> plastic;             // hencky_j2
+  Aligned<double> loads;               // [N] 4 a loaded face
+  Aligned<double> reactions;           // reaction_row a constraint, of the last stage
+  Aligned<double> mean_reactions;      // mean of the last step's stages
+  Aligned<double> initial_mismatch;    // [-] monitor.involutions: F - grad x at the start, 9 a row
+  CurrentGeometry current;             // current areas only
+  Projection projection;               // pFp only
+  std::vector<PartReport> reports;     // one a part
+  std::vector<double> acceleration;    // [1/s] per boundary condition: rate of the time factor over the step
+  Vec3 arm_origin{};                   // [m] keep_angular_momentum: what its arms are counted from
+  bool has_lagged_correction = false;  // of the last stage, for the next step's first: dG in U[1], dP within PH[now]
+  int now = 0;                         // which of W, PH belongs to the present state
 };
 
+/// Whether a run that stops between two steps needs an array to go on: `unknown` are the unknowns themselves (they are what a state's hash is of), `carried` is found from them
+/// but not to the last bit, or belongs to a report; `work` is written before it is read.
+enum class Keep { unknown, carried, work };
+
+struct ArrayRole {
+  std::string_view name;
+  std::size_t size;  // doubles; 0 where the scene does not carry it
+  Keep keep;
+};
+
+/// The one list of a state's arrays, by what the physics of the scene needs: visit(role, array).
+template <class SomeState, class Visit>
+void each_array(const Domain& d, SomeState& u, Visit visit) {
+  const PhysicsSpec& p = d.scene->physics;
+  const std::size_t nodes = static_cast<std::size_t>(d.order.rows), edges = d.order.C[0].size(),
+                    corners = d.order.corner_b.size(), constraints = d.boundary.constraints.size();
+  const bool projected = p.formulation == Formulation::pFp, linear = p.reconstruction != Reconstruction::constant,
+             corrected = p.flux_correction != FluxCorrection::none, current = has_current_areas(p.description);
+  const auto say = [&](std::string_view name, Keep keep, std::size_t size, bool carried, auto& array) {
+    visit(ArrayRole{name, carried ? size : 0, keep}, array);
+  };
+  say("U", Keep::unknown, row::U * nodes, true, u.U[0]);
+  say("U_stage", corrected ? Keep::carried : Keep::work, row::U * nodes, true, u.U[1]);
+  say("H", Keep::unknown, row::H * nodes, p.formulation == Formulation::pFHJ, u.H[0]);
+  say("H_stage", Keep::work, row::H * nodes, p.formulation == Formulation::pFHJ, u.H[1]);
+  for (int k = 0; k < 2; ++k) {
+    say("W", k == u.now ? Keep::carried : Keep::work, row::W * nodes, k == 0 || !projected, u.W[k]);
+    say("PH", k == u.now ? Keep::carried : Keep::work, row::PH * nodes, k == 0 || !projected, u.PH[k]);
+  }
+  say("G", Keep::work, row::G * nodes, linear || projected, u.G);
+  say("dP", Keep::carried, row::dP * nodes, p.flux_correction == FluxCorrection::full, u.dP);
+  say("q", Keep::carried, edges, p.flux_correction == FluxCorrection::pressure, u.q);
+  say("GP", Keep::work, row::GP * nodes, p.pressure_jump == PressureJump::tensor && linear, u.GP);
+  say("L", Keep::work, row::L * nodes,
+      p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst, u.L);
+  say("plastic", Keep::unknown, row::plastic * nodes, has_plasticity(*d.scene), u.plastic);
+  say("loads", Keep::work, 4 * d.boundary.slot_nodes.size(), true, u.loads);
+  say("reactions", Keep::work, reaction_row * constraints, true, u.reactions);
+  say("mean_reactions", Keep::carried, reaction_row * constraints, true, u.mean_reactions);
+  say("initial_mismatch", Keep::carried, 9 * nodes, d.scene->monitor.involutions, u.initial_mismatch);
+  say("x", Keep::work, row::x * nodes, current, u.current.x);
+  say("area_map", Keep::work, row::H * nodes, p.description == Description::pseudo_updated, u.current.map);
+  for (int k = 0; k < 3; ++k) {
+    say("c", Keep::work, edges, current, u.current.c[k]);
+    say("c_corner", Keep::work, corners, current, u.current.corner[k]);
+  }
+  say("dJ", Keep::work, nodes, current, u.current.dJ);
+  auto& q = u.projection;
+  say("projection_E", Keep::work, row::E * edges, projected, q.E);
+  say("projection_B", Keep::work, row::B * corners, projected, q.B);
+  say("projection_H", Keep::work, row::H * nodes, projected, q.H);
+  say("projection_V", Keep::work, row::V * nodes, projected, q.V);
+  say("volume", Keep::carried, nodes, projected, q.volume[0]);
+  say("volume_stage", Keep::work, nodes, projected, q.volume[1]);
+  say("taken", Keep::carried, nodes, projected, q.taken[0]);
+  say("taken_stage", Keep::work, nodes, projected, q.taken[1]);
+  say("fixed", Keep::carried, nodes, projected, q.fixed);
+  say("lag", Keep::carried, nodes, projected, q.lag);
+  for (auto* v : {&q.inverse_diagonal, &q.weight_sum, &q.R, &q.d, &q.Kd})
+    say("projection_solve", Keep::work, nodes, projected, *v);
+  say("removed", Keep::work, 3 * constraints, projected, q.removed);
+}
+
 /// Zero or undeformed everywhere; padding rows are undeformed nodes of unit volume with an infinite step length.
-State make_state(const Scene& scene, const Mesh& mesh, Dual dual, const Order& order, const Boundary& boundary);
+State make_state(const Domain& domain);
 
 /// The rows of a stage that takes the rates of U[from] and writes U[to], and the next W and PH.
-Rows stage_rows(State& state, int from, int to);
+Rows stage_rows(const Domain& domain, State& state, int from, int to);
+/// Those of the present state that energies are sums over.
+Rows present_rows(const Domain& domain, const State& state);
 
-/// Bytes a node of all arrays of state and order, and in words what the scene does not pay for.
-double bytes_per_node(const State& state, const Order& order);
+std::size_t bytes_of(const Domain& domain, const State& state);
+
+/// In words what the scene does not pay for.
 std::vector<std::string> fields_left_out(const Scene& scene);
 
 }  // namespace nanson

@@ -12,8 +12,8 @@ namespace nanson {
 namespace {
 
 ProjectionSummary projection_summary(const Simulation& s) {
-  const ProjectionSpec& spec = s.scene->projection;
-  const Projection& p = s.projection;
+  const ProjectionSpec& spec = s.domain.scene->projection;
+  const Projection& p = s.state.projection;
   const double stages = p.stages > 0 ? static_cast<double>(p.stages) : 1;
   return {std::string(word(spec.solver)),
           spec.stabilisation,
@@ -23,7 +23,7 @@ ProjectionSummary projection_summary(const Simulation& s) {
           static_cast<double>(p.iterations) / stages,
           static_cast<double>(p.rounds) / stages,
           p.residual,
-          p.closed};
+          s.domain.projection.closed};
 }
 
 /// The law, or "region law, region law" with several materials.
@@ -38,9 +38,9 @@ std::string material_words(const Scene& scene) {
 
 }  // namespace
 
-Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::string& status,
+Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const std::string& status,
                   const std::string& reason) {
-  const Scene& scene = *s.scene;
+  const Scene& scene = *s.domain.scene;
   const PhysicsSpec& p = scene.physics;
   Summary out;
   out.status = status;
@@ -60,39 +60,39 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
   out.integrator = word(scene.time.integrator);
   out.step = word(scene.time.step);
   out.split = scene.mesh.source == MeshSource::box ? word(scene.mesh.split) : word(scene.mesh.source);
-  out.nodes = s.order.nodes;
-  out.tets = static_cast<long>(s.mesh->tets.size());
-  out.edges = s.edges;
-  out.steps = s.step;
-  out.t_end = s.t;
-  out.dt_min = s.dt_min;
-  out.dt_max = s.dt_max;
-  out.threads = s.threads;
-  out.wall_s = s.wall_s;
-  out.cpu_s = s.cpu_s;
-  out.setup_s = s.setup.total();
-  out.ns_per_node_step = s.step > 0 ? 1e9 * s.wall_s / (static_cast<double>(s.step) * s.order.nodes) : 0;
+  out.nodes = s.domain.order.nodes;
+  out.tets = static_cast<long>(s.domain.mesh->tets.size());
+  out.edges = s.domain.edges;
+  out.steps = s.state.step;
+  out.t_end = s.state.t;
+  out.dt_min = s.state.dt_min;
+  out.dt_max = s.state.dt_max;
+  out.threads = s.team.threads;
+  out.wall_s = s.team.wall_s;
+  out.cpu_s = s.team.cpu_s;
+  out.setup_s = s.team.setup.total();
+  out.ns_per_node_step = s.state.step > 0
+                             ? 1e9 * s.team.wall_s / (static_cast<double>(s.state.step) * s.domain.order.nodes)
+                             : 0;
   out.bytes_per_node = bytes_per_node(s);
   out.fields_left_out = fields_left_out(scene);
   out.state_hash = state_hash(s);
-  const Energies& e = seen(s).energies;
-  out.energy.initial = s.ledger.initial_energy;
+  const auto [e, x] = seen(s);
+  out.energy.initial = s.books.initial_energy;
   out.energy.kinetic = e.kinetic;
   out.energy.strain = e.strain;
-  out.energy.lost_at_start = s.ledger.lost_at_start;
+  out.energy.lost_at_start = s.books.lost_at_start;
   if (scene.monitor.energy) {
-    out.energy.external_work = s.ledger.external_work;
-    out.energy.dissipated = s.ledger.dissipated;
+    out.energy.external_work = s.books.external_work;
+    out.energy.dissipated = s.books.dissipated;
     out.energy.closure = energy_closure(s, e);
   }
-  if (scene.monitor.energy && p.keep_angular_momentum)
-    out.energy.angular_momentum_work = s.ledger.angular_momentum_work;
+  if (scene.monitor.energy && p.keep_angular_momentum) out.energy.angular_momentum_work = s.books.angular_momentum_work;
   out.keep_angular_momentum = p.keep_angular_momentum;
-  out.mass = s.ledger.mass;
-  out.volume = s.ledger.volume;
+  out.mass = s.books.mass;
+  out.volume = s.books.volume;
   out.angular_momentum_drift = angular_momentum_drift(s);
   out.linear_momentum_drift = linear_momentum_drift(s);
-  const Extrema& x = seen(s).extrema;
   out.min_detF = x.min_detF;
   out.max_detF = x.max_detF;
   out.errors = exact_errors(s);
@@ -103,8 +103,8 @@ Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::st
       probe(s, q.place, f, v);
       out.probes[q.spec.name][name].assign(v, v + f.components);
     }
-  out.setup = s.setup.sweeps;
-  out.sweeps = s.clock.sweeps;
+  out.setup = s.team.setup.sweeps;
+  out.sweeps = s.team.clock.sweeps;
   out.checkerboard = checkerboard(s).measure;
   out.extremes = s.watch.extremes;
   for (const Warning& w : s.watch.warnings) out.warnings.push_back(w.text);

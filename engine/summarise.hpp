@@ -5,7 +5,7 @@
 
 namespace nanson {
 
-Summary summarise(Simulation& s, const std::vector<Probe>& probes, const std::string& status,
+Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const std::string& status,
                   const std::string& reason);
 
 /// What a user wants to see at the end: status, time and scheme; steps and seconds; energy balance and errors; worst tet and det F.

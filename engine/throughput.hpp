@@ -1,6 +1,9 @@
 // What the sweeps of a run made of the machine, by the byte and flop model of engine/work.hpp.
 #pragma once
-#include "engine/solver.hpp"
+#include <optional>
+
+#include "engine/simulation.hpp"
+#include "engine/summary.hpp"
 
 namespace nanson {
 

@@ -33,15 +33,15 @@ void look_for_checkerboard(Simulation& s) {
   w.largest_size = std::max(w.largest_size, c.size);
   if (!(w.checkerboard_size >= counted_size * w.largest_size)) w.extremes.checkerboard = {};
   if (c.size < counted_size * w.largest_size || c.measure <= w.extremes.checkerboard.value) return;
-  w.extremes.checkerboard = {c.measure, s.t};
+  w.extremes.checkerboard = {c.measure, s.state.t};
   w.checkerboard_size = c.size;
 }
 
 double tet_ratio(const Simulation& s, const std::array<int, 4>& tet) {
   Vec3 X[4], x[4];
   for (std::size_t v = 0; v < 4; ++v) {
-    X[v] = s.mesh->X[static_cast<std::size_t>(tet[v])];
-    const std::size_t r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(tet[v])]);
+    X[v] = s.domain.mesh->X[static_cast<std::size_t>(tet[v])];
+    const std::size_t r = static_cast<std::size_t>(s.domain.order.row_of[static_cast<std::size_t>(tet[v])]);
     for (std::size_t i = 0; i < 3; ++i) x[v][i] = s.state.U[0][row::U * r + 4 * (i + 1) + 3];
   }
   return tet_volume(x[0], x[1], x[2], x[3]) / tet_volume(X[0], X[1], X[2], X[3]);
@@ -49,7 +49,7 @@ double tet_ratio(const Simulation& s, const std::array<int, 4>& tet) {
 
 /// Names the worst of the tets that have turned.
 Breakdown inverted_tet(const Simulation& s) {
-  const Mesh& mesh = *s.mesh;
+  const Mesh& mesh = *s.domain.mesh;
   std::size_t worst = 0, turned = 0;
   double least = 1e300;
   for (std::size_t t = 0; t < mesh.tets.size(); ++t) {
@@ -63,7 +63,7 @@ Breakdown inverted_tet(const Simulation& s) {
   const auto& n = mesh.tets[worst];
   Vec3 X{}, x{};
   for (const int node : n) {
-    const std::size_t r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(node)]);
+    const std::size_t r = static_cast<std::size_t>(s.domain.order.row_of[static_cast<std::size_t>(node)]);
     for (std::size_t i = 0; i < 3; ++i) {
       X[i] += 0.25 * mesh.X[static_cast<std::size_t>(node)][i];
       x[i] += 0.25 * s.state.U[0][row::U * r + 4 * (i + 1) + 3];
@@ -76,36 +76,37 @@ Breakdown inverted_tet(const Simulation& s) {
                       "may help, monitor.geometry = \"stop\" ends such a run",
                       worst, fmt::join(n, " "), mesh.region_names[static_cast<std::size_t>(mesh.tet_region[worst])],
                       least, turned > 1 ? fmt::format(" ({} more are)", turned - 1) : "", X[0], X[1], X[2], x[0], x[1],
-                      x[2], s.step, s.t),
+                      x[2], s.state.step, s.state.t),
           "inverted_tet"};
 }
 
 }  // namespace
 
-Extrema extrema(Simulation& s) {
+Extrema extrema(const Simulation& s) {
   constexpr std::size_t count = 9;
-  const bool with_J = evolves_J(s.scene->physics.formulation);
+  const bool with_J = evolves_J(s.domain.scene->physics.formulation);
   const double* U = s.state.U[0].data();
   const double* plastic = s.state.plastic.empty() ? nullptr : s.state.plastic.data();
-  const TetArrays tets = s.tets.arrays();
+  const TetArrays tets = s.domain.tets.arrays();
   for_parts(s, [&](int p, Scratch) {
-    const Part& part = s.order.parts[static_cast<std::size_t>(p)];
-    const int* node_of = s.order.node_of.data();
+    const Part& part = s.domain.order.parts[static_cast<std::size_t>(p)];
+    const int* node_of = s.domain.order.node_of.data();
     const NodeExtrema e = with_J ? node_extrema_part<true>(part, U, node_of)
                                  : node_extrema_part<false>(part, U, node_of);
     double strain = 0;
     for (int n = part.node_begin; plastic && n < part.node_end; ++n)
       if (node_of[n] >= 0) strain = std::max(strain, plastic[row::plastic * n + 3]);
-    const double least_tet = s.tets.first.empty() ? 1e300
-                                                  : least_tet_ratio(tets, s.tets.first[static_cast<std::size_t>(p)],
-                                                                    s.tets.first[static_cast<std::size_t>(p) + 1], U);
+    const double least_tet = s.domain.tets.first.empty()
+                                 ? 1e300
+                                 : least_tet_ratio(tets, s.domain.tets.first[static_cast<std::size_t>(p)],
+                                                   s.domain.tets.first[static_cast<std::size_t>(p) + 1], U);
     const std::array<double, count> found{-e.detF.least,      e.detF.most, -e.J.least, e.J.most, -e.detF_over_J.least,
                                           e.detF_over_J.most, -least_tet,  e.speed2,   strain};
-    std::copy(found.begin(), found.end(), s.part_rows[static_cast<std::size_t>(p)].begin());
+    std::copy(found.begin(), found.end(), s.team.part_rows[static_cast<std::size_t>(p)].begin());
   });
   std::array<double, count> most;
   most.fill(-1e300);
-  for (const auto& found : s.part_rows)
+  for (const auto& found : s.team.part_rows)
     for (std::size_t i = 0; i < count; ++i) most[i] = std::max(most[i], found[i]);
   return {-most[0], most[1], -most[2], most[3], -most[4], most[5], -most[6], std::sqrt(most[7]), most[8]};
 }
@@ -124,25 +125,25 @@ std::optional<std::string> cfl_warning(const Scene& scene) {
 
 void look(Simulation& s) {
   Watch& w = s.watch;
-  w.step = s.step;
+  w.step = s.state.step;
   w.energies = energies(s);
   w.extrema = extrema(s);
   const Extrema& x = w.extrema;
   Extremes& e = w.extremes;
-  take_least(e.least_detF, x.min_detF, s.t);
-  take_most(e.most_detF, x.max_detF, s.t);
-  take_most(e.speed, x.max_speed, s.t);
-  if (!s.tets.first.empty()) take_least(e.least_tet_ratio, x.min_tet_ratio, s.t);
-  if (evolves_J(s.scene->physics.formulation)) {
-    take_least(e.least_detF_over_J, x.min_detF_over_J, s.t);
-    take_most(e.most_detF_over_J, x.max_detF_over_J, s.t);
+  take_least(e.least_detF, x.min_detF, s.state.t);
+  take_most(e.most_detF, x.max_detF, s.state.t);
+  take_most(e.speed, x.max_speed, s.state.t);
+  if (!s.domain.tets.first.empty()) take_least(e.least_tet_ratio, x.min_tet_ratio, s.state.t);
+  if (evolves_J(s.domain.scene->physics.formulation)) {
+    take_least(e.least_detF_over_J, x.min_detF_over_J, s.state.t);
+    take_most(e.most_detF_over_J, x.max_detF_over_J, s.state.t);
   }
   if (w.rows++ % checkerboard_rows == 0) look_for_checkerboard(s);
 }
 
-const Watch& seen(Simulation& s) {
-  if (s.watch.step != s.step) look(s);
-  return s.watch;
+Seen seen(const Simulation& s) {
+  if (s.watch.step == s.state.step) return {s.watch.energies, s.watch.extrema};
+  return {energies(s), extrema(s)};
 }
 
 void warn(Simulation& s, std::string_view cause, std::string text) {
@@ -151,8 +152,8 @@ void warn(Simulation& s, std::string_view cause, std::string text) {
 }
 
 std::optional<Breakdown> ruin(Simulation& s) {
-  const MonitorSpec& monitor = s.scene->monitor;
-  const bool body_force_is_booked = s.manufactured.waves.empty();
+  const MonitorSpec& monitor = s.domain.scene->monitor;
+  const bool body_force_is_booked = s.domain.manufactured.waves.empty();
   if (auto grown = body_force_is_booked ? energy_growth(s) : std::nullopt) {
     if (!monitor.energy || monitor.energy_growth == EnergyGrowth::stop) return Breakdown{-1, *grown, "energy_growth"};
     warn(s, "energy_growth", *grown);
@@ -168,7 +169,7 @@ std::optional<Breakdown> ruin(Simulation& s) {
     warn(s, "parted",
          fmt::format("J and det F part: at step {}, t = {:.6e} s, det F/J ranges from {:.3g} to {:.3g}; a finer mesh, "
                      "physics.parting or formulation = \"pF\" may help",
-                     s.step, s.t, x.min_detF_over_J, x.max_detF_over_J));
+                     s.state.step, s.state.t, x.min_detF_over_J, x.max_detF_over_J));
   return std::nullopt;
 }
 

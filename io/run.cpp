@@ -7,6 +7,7 @@
 #include "engine/mesh/mesh_quality.hpp"
 #include "engine/monitor.hpp"
 #include "engine/pieces.hpp"
+#include "engine/solver.hpp"
 #include "engine/summarise.hpp"
 #include "engine/throughput.hpp"
 #include "io/peak_memory.hpp"
@@ -42,30 +43,32 @@ void print_start(const RunOptions& options, Simulation& s, const std::vector<Pro
                  const std::filesystem::path& folder) {
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  say(options, fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, {:.0f} bytes a node",
-                           s.scene->name, s.order.nodes, s.mesh->tets.size(), s.edges, s.order.parts.size(), s.threads,
-                           s.threads == 1 ? "" : "s", bytes_per_node(s)));
-  say(options, "set-up: " + setup_text(s.setup));
+  say(options,
+      fmt::format("{}: {} nodes, {} tets, {} edges in {} parts, {} thread{}, {:.0f} bytes a node", s.domain.scene->name,
+                  s.domain.order.nodes, s.domain.mesh->tets.size(), s.domain.edges, s.domain.order.parts.size(),
+                  s.team.threads, s.team.threads == 1 ? "" : "s", bytes_per_node(s)));
+  say(options, "set-up: " + setup_text(s.team.setup));
   say(options, fmt::format("start: mass {:.6g} kg, volume {:.6g} m^3, kinetic {:.6g} J, strain {:.6g} J, momentum "
                            "({:.4g}, {:.4g}, {:.4g}) kg m/s, angular momentum "
                            "({:.4g}, {:.4g}, {:.4g}) kg m^2/s",
-                           s.ledger.mass, s.ledger.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2],
+                           s.books.mass, s.books.volume, e.kinetic, e.strain, m.linear[0], m.linear[1], m.linear[2],
                            m.angular[0], m.angular[1], m.angular[2]));
-  if (s.ledger.lost_at_start > 1e-12 * s.ledger.initial_energy)
+  if (s.books.lost_at_start > 1e-12 * s.books.initial_energy)
     say(options, fmt::format("start: the supports remove {:.4g} J of kinetic energy from the initial velocity",
-                             s.ledger.lost_at_start));
-  if (s.mesh->reoriented > 0)
-    say(options, fmt::format("mesh: {} tets were inverted and have been turned", s.mesh->reoriented));
-  if (s.mesh->unnamed_faces > 0)
-    say(options, fmt::format("mesh: {} boundary triangles have no name: free", s.mesh->unnamed_faces));
-  if (!s.boundary.free_faces.empty())
-    say(options, fmt::format("faces that no [[boundary]] names are free: {}", fmt::join(s.boundary.free_faces, " ")));
-  if (auto large = cfl_warning(*s.scene)) warn(s, "cfl", *large);
+                             s.books.lost_at_start));
+  if (s.domain.mesh->reoriented > 0)
+    say(options, fmt::format("mesh: {} tets were inverted and have been turned", s.domain.mesh->reoriented));
+  if (s.domain.mesh->unnamed_faces > 0)
+    say(options, fmt::format("mesh: {} boundary triangles have no name: free", s.domain.mesh->unnamed_faces));
+  if (!s.domain.boundary.free_faces.empty())
+    say(options,
+        fmt::format("faces that no [[boundary]] names are free: {}", fmt::join(s.domain.boundary.free_faces, " ")));
+  if (auto large = cfl_warning(*s.domain.scene)) warn(s, "cfl", *large);
   const std::vector<Piece> bodies = pieces(s);
   if (bodies.size() > 1)
-    for (const std::string& line : piece_lines(bodies, mesh_quality(*s.mesh).min_edge)) say(options, line);
+    for (const std::string& line : piece_lines(bodies, mesh_quality(*s.domain.mesh).min_edge)) say(options, line);
   if (const std::string loose = loose_piece(bodies); !loose.empty()) warn(s, "loose_piece", loose);
-  if (s.order.metis_failed) say(options, "order: METIS failed; one RCM numbering was cut into parts instead");
+  if (s.domain.order.metis_failed) say(options, "order: METIS failed; one RCM numbering was cut into parts instead");
   for (const Probe& p : probes)
     say(options, p.place.tet >= 0
                      ? fmt::format("probe {}: in tet {}", p.spec.name, p.place.tet)
@@ -86,7 +89,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   const Scene& scene = loaded.scene;
   ResultsFolder folder(scene.name, options.out);
   Simulation s = make_simulation(scene, loaded.mesh, options.threads);
-  s.setup.add("mesh", loaded.mesh_s);
+  s.team.setup.add("mesh", loaded.mesh_s);
   const std::vector<Probe> probes = place_probes(scene, loaded.mesh);
   const std::string earlier = folder.begin(options.force);
   if (!earlier.empty() && !options.force) print(stderr, "{}\n", earlier);  // with `quiet` too
@@ -94,7 +97,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   print_start(options, s, probes, folder.path());
 
   const Provenance from = provenance();
-  FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.threads, scene.text),
+  FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.team.threads, scene.text),
                      scene.output.compress);
   HistoryWriter history(folder.path() / "history.csv", history_columns(s, probes));
   Progress progress(0, scene.time.end, options.quiet);
@@ -103,13 +106,13 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   std::vector<float> buffer;
   Observer observer;
   observer.on_step = [&](const Simulation& now) {
-    progress.update(now.step, now.t, now.dt, std::nullopt);
+    progress.update(now.state.step, now.state.t, now.state.dt, std::nullopt);
     for (; warned < now.watch.warnings.size(); ++warned)
       progress.message("warning: " + now.watch.warnings[warned].text);
   };
-  observer.on_history = [&](const Simulation&) { history.row(history_row(s, probes)); };
+  observer.on_history = [&](const Simulation& now) { history.row(history_row(now, probes)); };
   observer.on_frame = [&](const Simulation& now) {
-    fields.frame(now.t, now.step, now.breakdown.has_value(), [&](const FieldName& f) {
+    fields.frame(now.state.t, now.state.step, now.breakdown.has_value(), [&](const FieldName& f) {
       buffer = field(now, f);
       return std::span<const float>(buffer);
     });
@@ -123,7 +126,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   write_summary(folder.path() / "summary.json", summary, from);
   if (!options.quiet && summary.throughput) {   // again with the bandwidth: nothing is lost if its measurement fails
     constexpr std::size_t beyond_L3 = 8 << 20;  // doubles: 64 MB an array
-    summary.throughput = throughput(s, update_bandwidth(s.threads, beyond_L3, 3));
+    summary.throughput = throughput(s, update_bandwidth(s.team.threads, beyond_L3, 3));
     write_summary(folder.path() / "summary.json", summary, from);
   }
   if (!reason.empty()) progress.message(status + ": " + reason);

@@ -108,7 +108,8 @@ struct Rows {
   double* H_new;
   double* W_new;
   double* PH_new;
-  double* plastic;  // at the start of the step, overwritten where the stage commits
+  const double* plastic;  // at the start of the step ...
+  double* plastic_new;    // ... and where a stage that commits leaves it: the same rows
   double* lagged_dG =
       nullptr;  // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
   double* lagged_q = nullptr;  // [Pa] q of Sigma_J an edge, pressure correction only
@@ -205,7 +206,7 @@ PartReport stress_part(const Part&, const Rows&, const Coefficients&, const doub
 template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
-/// Strain energy of a part's nodes in U_new, H_new [J].
+/// Strain energy of a part's nodes in U_stage, H_stage [J].
 template <Law, Volumetric, Isochoric, Formulation, Parting = Parting::none>
 double strain_energy_part(const Part&, const Rows&, const Coefficients&);
 template <Law>

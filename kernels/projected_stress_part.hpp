@@ -47,7 +47,7 @@ double projected_energy_part(const Part& part, const Rows& rows, const Coefficie
   const MaterialConstants m = isochoric(k.material);
   Vec8 total{};
   for (std::ptrdiff_t n = part.node_begin; n < part.node_end; n += 8) {
-    const double* U = rows.U_new + row::U * n;
+    const double* U = rows.U_stage + row::U * n;
     Vec8 v[3], X[3], p, x, inverse_volume;
     Tensor<Vec8> F;
     load_transposed(U, row::U, v[0], v[1], v[2], p);

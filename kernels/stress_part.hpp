@@ -65,8 +65,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     Stress<Vec8> s;
     Mask8 sound = Vec8{} == 0.0;
     if constexpr (law == Law::hencky_j2) {
-      double* p = rows.plastic + row::plastic * n;
-      const PlasticState<Vec8> z = load_plastic(p);
+      const PlasticState<Vec8> z = load_plastic(rows.plastic + row::plastic * n);
       const ReturnMapping<Vec8> r = Law_::return_mapping(F, z, k.material);
       s = Law_::stress(F, H, J, r, k.material);
       sound = r.q - r.q == 0.0;
@@ -74,7 +73,7 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
         Vec8 X[3], inverse_volume;
         load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);
         plastic_work = plastic_work + r.plastic_work / inverse_volume;
-        if (any(r.d_gamma > 0.0)) store_plastic(p, Law_::flowed(F, z, r));
+        if (any(r.d_gamma > 0.0)) store_plastic(rows.plastic_new + row::plastic * n, Law_::flowed(F, z, r));
       }
     } else {
       s = Law_::stress(F, H, J, k.material);
@@ -117,14 +116,14 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
   using Law_ = Material<law, volumetric, isochoric, formulation>;
   Vec8 total{};
   for (std::ptrdiff_t n = part.node_begin; n < part.node_end; n += 8) {
-    const double* U = rows.U_new + row::U * n;
+    const double* U = rows.U_stage + row::U * n;
     Vec8 v[3], X[3], J, x, inverse_volume, density;
     Tensor<Vec8> F, H{};
     load_transposed(U, row::U, v[0], v[1], v[2], J);
     for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
     if constexpr (formulation == Formulation::pFHJ)
       for (int I = 0; I < 3; ++I)
-        load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
+        load_transposed(rows.H_stage + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
     if constexpr (law == Law::hencky_j2)
       density = Law_::energy(F, J, load_plastic(rows.plastic + row::plastic * n), k.material);
     else density = Law_::energy(F, H, J, k.material);

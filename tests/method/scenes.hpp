@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/current_areas.hpp"
 #include "engine/fields.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
@@ -29,6 +30,14 @@ struct Problem {
   explicit Problem(const Scene& s) : scene(s), mesh(mesh_of(make_box(s.mesh))) {}
   Problem(const Scene& s, Mesh m) : scene(s), mesh(std::move(m)) {}
   Simulation start(int threads = 1) const { return make_simulation(scene, mesh, threads); }
+  /// With constants that no scene has: change(domain) before it starts.
+  template <class Change>
+  Simulation start_changed(Change change) const {
+    Team team = make_team(1);
+    Domain domain = make_domain(scene, mesh, team.setup);
+    change(domain);
+    return nanson::start(std::move(domain), std::move(team));
+  }
 };
 
 inline BoundarySpec condition(std::vector<std::string> faces, BoundaryKind kind) {
@@ -149,7 +158,7 @@ inline std::string name(const PhysicsSpec& p) {
 /// Steps of a fixed size.
 inline void march(Simulation& s, double dt, int steps) {
   for (int i = 0; i < steps; ++i) {
-    s.dt = dt;
+    s.state.dt = dt;
     advance(s);
   }
 }
@@ -157,7 +166,7 @@ inline void march(Simulation& s, double dt, int steps) {
 /// Steps of the scene's rule, without its end.
 inline void march(Simulation& s, int steps) {
   for (int i = 0; i < steps; ++i) {
-    s.dt = allowed_step(s);
+    s.state.dt = allowed_step(s);
     advance(s);
   }
 }
@@ -168,58 +177,64 @@ inline std::string run_quietly(Simulation& s) {
   return run(s, {}, reason);
 }
 
-inline double* U_of(Simulation& s, int node) { return &s.state.U[0][row::U * s.order.row_of[node]]; }
+inline double* U_of(Simulation& s, int node) { return &s.state.U[0][row::U * s.domain.order.row_of[node]]; }
 
 /// Takes a state that a test wrote into the rows: its stress, step bound and ledger.
 inline void adopt_state(Simulation& s) {
   Rows r{};
-  r.X = s.state.X.data();
+  r.X = s.domain.X.data();
   r.U_new = s.state.U[0].data();
   r.H_new = s.state.H[0].data();
   r.W_new = s.state.W[s.state.now].data();
   r.PH_new = s.state.PH[s.state.now].data();
-  for (std::size_t p = 0; p < s.order.parts.size(); ++p)
-    s.reports[p] = stress_of_part(s, static_cast<int>(p), r, s.coefficients, scratch_of(s, 0));
+  for (std::size_t p = 0; p < s.domain.order.parts.size(); ++p)
+    s.state.reports[p] = stress_of_part(s.domain, static_cast<int>(p), r, s.domain.coefficients, scratch_of(s, 0));
   s.state.has_lagged_correction = false;
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  s.ledger.initial_energy = e.kinetic + e.strain;
-  s.ledger.initial_momentum = m.linear;
-  s.ledger.initial_angular_momentum = m.angular;
+  s.books.initial_energy = e.kinetic + e.strain;
+  s.books.initial_momentum = m.linear;
+  s.books.initial_angular_momentum = m.angular;
 }
 
 /// x = F X everywhere, J and H as F says; the velocities stay.
 inline void deform(Simulation& s, const Tensor<double>& F) {
   const Tensor<double> H = cofactor(F);
-  for (int n = 0; n < s.order.nodes; ++n) {
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
     double* U = U_of(s, n);
-    const Vec3& X = s.mesh->X[n];
+    const Vec3& X = s.domain.mesh->X[n];
     U[3] = determinant(F, H);
     for (int i = 0; i < 3; ++i) {
       U[4 * (i + 1) + 3] = F[i][0] * X[0] + F[i][1] * X[1] + F[i][2] * X[2];
       for (int I = 0; I < 3; ++I) U[4 * (I + 1) + i] = F[i][I];
     }
     if (s.state.H[0].empty()) continue;
-    for (int m = 0; m < 9; ++m) s.state.H[0][row::H * s.order.row_of[n] + 4 * (m / 3) + m % 3] = H[m % 3][m / 3];
+    for (int m = 0; m < 9; ++m) s.state.H[0][row::H * s.domain.order.row_of[n] + 4 * (m / 3) + m % 3] = H[m % 3][m / 3];
   }
   adopt_state(s);
 }
 
 /// Adds the same velocity to every node.
 inline void push(Simulation& s, const Vec3& v) {
-  for (int n = 0; n < s.order.nodes; ++n)
+  for (int n = 0; n < s.domain.order.nodes; ++n)
     for (int k = 0; k < 3; ++k) U_of(s, n)[k] += v[k];
   adopt_state(s);
 }
 
-/// Power that the stabilisation takes out of the rows W, PH and G as they stand [W].
+/// Power that the stabilisation takes out of the rows W and PH as they stand [W]; leaves their gradients in the state.
 inline double dissipated_power(Simulation& s) {
-  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, Materials::one, true,
-                                                      s.state.has_lagged_correction);
+  const PartFunctions functions = find_part_functions(s.domain.scene->physics, s.domain.scene->material, Materials::one,
+                                                      true, s.state.has_lagged_correction);
+  const Rows rows = stage_rows(s.domain, s.state, 0, 0);
+  const auto edges = s.domain.order.edges();
+  const auto corners = s.domain.order.corners();
+  const auto lists = s.domain.order.lists();
+  for (const Part& part : s.domain.order.parts)
+    functions.gradient(part, edges, corners, lists, rows, s.domain.coefficients);
   double power = 0;
-  for (const Part& part : s.order.parts)
-    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), s.order.lists(), stage_rows(s.state, 0, 0),
-                                 s.coefficients, scratch_of(s, 0));
+  for (const Part& part : s.domain.order.parts)
+    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, s.domain.coefficients,
+                                 scratch_of(s, 0));
   return power;
 }
 
@@ -229,33 +244,31 @@ struct Rates {
 };
 
 inline Rates rates(Simulation& s) {
-  const std::size_t count = s.order.rows;
+  const std::size_t count = s.domain.order.rows;
   State& u = s.state;
   Rates out{Aligned<double>(row::U * count, 0.0), Aligned<double>(row::G * count, 0.0)};
   Aligned<double> H(u.H[0].size(), 0.0);
-  Coefficients k = s.coefficients;
+  Coefficients k = s.domain.coefficients;
   k.old_weight = 0;
   k.stage_weight = 0;
   k.dt = 1;
-  k.acceleration = s.acceleration.data();
-  Rows rows = stage_rows(u, 0, 0);
+  k.acceleration = s.state.acceleration.data();
+  Rows rows = stage_rows(s.domain, u, 0, 0);
   find_current_areas(s, rows.U_stage);
-  rows.dJ = s.current.dJ.data();
-  rows.rho = s.mixture.rho.data();
   rows.G = out.G.data();
   rows.U_new = out.U.data();
   rows.H_new = H.data();
   rows.W_new = nullptr;
-  const auto edges = s.order.edges();
-  const auto corners = s.order.corners();
-  const auto lists = s.order.lists();
+  const auto edges = s.domain.order.edges();
+  const auto corners = s.domain.order.corners();
+  const auto lists = s.domain.order.lists();
   const Scratch scratch = scratch_of(s, 0);
-  for (const Part& part : s.order.parts) s.functions.gradient(part, edges, corners, lists, rows, k);
-  if (s.functions.corrects_stress) rows.PH = rows.PH_new;
-  for (const Part& part : s.order.parts) {
-    s.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);
-    s.functions.accumulate_update(part, edges, lists, rows, k, s.boundary.constraints.data(), u.reactions.data(),
-                                  scratch);
+  for (const Part& part : s.domain.order.parts) s.domain.functions.gradient(part, edges, corners, lists, rows, k);
+  if (s.domain.functions.corrects_stress) rows.PH = rows.PH_new;
+  for (const Part& part : s.domain.order.parts) {
+    s.domain.functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch);
+    s.domain.functions.accumulate_update(part, edges, lists, rows, k, s.domain.boundary.constraints.data(),
+                                         u.reactions.data(), scratch);
   }
   return out;
 }
@@ -263,8 +276,8 @@ inline Rates rates(Simulation& s) {
 /// Rows that belong to mesh nodes, not to padding.
 inline std::vector<int> real_rows(const Simulation& s) {
   std::vector<int> rows;
-  for (int n = 0; n < s.order.rows; ++n)
-    if (s.order.node_of[n] >= 0) rows.push_back(n);
+  for (int n = 0; n < s.domain.order.rows; ++n)
+    if (s.domain.order.node_of[n] >= 0) rows.push_back(n);
   return rows;
 }
 

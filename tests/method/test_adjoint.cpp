@@ -19,7 +19,7 @@ void fill_rows(Simulation& s, Velocity velocity, Stress stress) {
     for (double& c : k) c = 3 * uniform(random);
   double *W = s.state.W[s.state.now].data(), *PH = s.state.PH[s.state.now].data();
   for (int n : real_rows(s)) {
-    const double* X = &s.state.X[row::X * n];
+    const double* X = &s.domain.X[row::X * n];
     for (int i = 0; i < 4; ++i)
       W[row::W * n + i] = velocity == Velocity::random
                               ? uniform(random)
@@ -49,22 +49,21 @@ Defect defect(const PhysicsSpec& physics, Velocity velocity, Stress stress, int 
   scene.physics = physics;
   scene.boundary = {condition({"xmax", "zmin"}, BoundaryKind::traction)};
   const Problem problem(scene);
-  Simulation s = problem.start();
-  s.coefficients.rho_cp = s.coefficients.rho_cs = 1e-200;
+  Simulation s = problem.start_changed([](Domain& d) { d.coefficients.rho_cp = d.coefficients.rho_cs = 1e-200; });
   fill_rows(s, velocity, stress);
   const Rates r = rates(s);
   double internal = 0, rest = 0, size = 0;
   const auto add = [&](double& sum, double power) { sum += power, size += std::abs(power); };
   const double *W = s.state.W[s.state.now].data(), *PH = s.state.PH[s.state.now].data();
   for (int n : real_rows(s)) {
-    const double volume = 1 / s.state.X[row::X * n + 3], mass = volume * s.coefficients.material.rho;
+    const double volume = 1 / s.domain.X[row::X * n + 3], mass = volume * s.domain.coefficients.material.rho;
     const double* rate = &r.U[row::U * n];
     for (int m = 0; m < 9; ++m)
       add(internal, volume * PH[row::PH * n + 8 * (m / 3) + m % 3] * rate[4 * (m / 3 + 1) + m % 3]);
     for (int i = 0; i < 3; ++i) add(rest, mass * W[row::W * n + i] * rate[i]);
   }
-  for (std::size_t slot = 0; slot < s.boundary.slot_nodes.size(); ++slot)
-    for (int n : s.boundary.slot_nodes[slot])
+  for (std::size_t slot = 0; slot < s.domain.boundary.slot_nodes.size(); ++slot)
+    for (int n : s.domain.boundary.slot_nodes[slot])
       for (std::size_t i = 0; i < 3; ++i) add(rest, -s.state.loads[4 * slot + i] * W[row::W * n + i]);
   return {std::abs(internal + rest) / size, std::abs(internal + rest) / std::abs(internal)};
 }

@@ -118,7 +118,7 @@ TEST(Allocation, AProjectedStepAllocatesNothing) {
 TEST(Allocation, AStepOfSeveralPartsOnTwoThreadsAllocatesNothing) {
   const Problem problem(loaded_bar(9));
   Simulation s = problem.start(2);
-  ASSERT_GE(s.order.parts.size(), 2u);
+  ASSERT_GE(s.domain.order.parts.size(), 2u);
   EXPECT_EQ(allocations_of_three_steps(s), 0);
 }
 

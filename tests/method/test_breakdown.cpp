@@ -30,7 +30,7 @@ std::string run_and_watch(Simulation& s, Frames& f, std::string& reason) {
   observer.on_step = [&](const Simulation&) { f.last_was_frame = false; };
   observer.on_history = [&](const Simulation&) { ++f.rows, f.last_was_frame = false; };
   observer.on_frame = [&](const Simulation& now) {
-    ++f.count, f.last_was_frame = true, f.last_broken = now.breakdown.has_value(), f.last_t = now.t;
+    ++f.count, f.last_was_frame = true, f.last_broken = now.breakdown.has_value(), f.last_t = now.state.t;
   };
   return run(s, observer, reason);
 }
@@ -61,14 +61,14 @@ TEST(Breakdown, InversionEndsTheRunAndNamesTheNode) {
           << s.breakdown->cause;
       EXPECT_NE(reason.find("node " + std::to_string(s.breakdown->node) + " at X = ("), std::string::npos) << reason;
       char t[32];
-      std::snprintf(t, sizeof t, "t = %.6e s", s.t);
+      std::snprintf(t, sizeof t, "t = %.6e s", s.state.t);
       EXPECT_NE(reason.find(t), std::string::npos) << reason;
-      EXPECT_NE(reason.find("step " + std::to_string(s.step)), std::string::npos) << reason;
-      EXPECT_LT(s.t, scene.time.end);
+      EXPECT_NE(reason.find("step " + std::to_string(s.state.step)), std::string::npos) << reason;
+      EXPECT_LT(s.state.t, scene.time.end);
       EXPECT_TRUE(frames.last_was_frame && frames.last_broken) << "the broken state is not the last frame";
-      EXPECT_EQ(frames.last_t, s.t);
+      EXPECT_EQ(frames.last_t, s.state.t);
       EXPECT_EQ(frames.count, 2);
-      EXPECT_EQ(frames.rows, s.step + 1);
+      EXPECT_EQ(frames.rows, s.state.step + 1);
     }
 }
 
@@ -101,7 +101,7 @@ TEST(Breakdown, NaNInAnyQuantityIsCaughtInTheNextStep) {
       U_of(s, 17)[lane] = std::numeric_limits<double>::quiet_NaN();
       std::string reason;
       EXPECT_EQ(run(s, {}, reason), "breakdown") << word(formulation) << " lane " << lane;
-      EXPECT_EQ(s.step, 3) << word(formulation) << " lane " << lane;
+      EXPECT_EQ(s.state.step, 3) << word(formulation) << " lane " << lane;
       ASSERT_TRUE(s.breakdown);
       EXPECT_EQ(s.breakdown->node, 17) << s.breakdown->text;
       EXPECT_EQ(s.breakdown->cause, "not_finite") << s.breakdown->text;
@@ -115,7 +115,7 @@ TEST(Breakdown, InfiniteVelocityIsCaught) {
   U_of(s, 17)[0] = std::numeric_limits<double>::infinity();
   std::string reason;
   EXPECT_EQ(run(s, {}, reason), "breakdown");
-  EXPECT_EQ(s.step, 1);
+  EXPECT_EQ(s.state.step, 1);
 }
 
 TEST(Breakdown, CollapseOfTheStepIsCaughtAndNamed) {
@@ -131,8 +131,8 @@ TEST(Breakdown, CollapseOfTheStepIsCaughtAndNamed) {
   std::string reason;
   EXPECT_EQ(run_and_watch(s, frames, reason), "breakdown");
   ASSERT_TRUE(s.breakdown);
-  EXPECT_LT(allowed_step(s), 0.7 * s.first_dt);
-  EXPECT_GT(allowed_step(s), 0.5 * s.first_dt) << "caught late";
+  EXPECT_LT(allowed_step(s), 0.7 * s.state.first_dt);
+  EXPECT_GT(allowed_step(s), 0.5 * s.state.first_dt) << "caught late";
   EXPECT_EQ(s.breakdown->node, limiting_nodes(s, 1)[0].first);
   EXPECT_NE(reason.find("collapsed"), std::string::npos) << reason;
   EXPECT_EQ(s.breakdown->cause, "dt_collapse");
@@ -144,12 +144,12 @@ TEST(Breakdown, AskedToStopIsNoBreakdown) {
   const Problem problem(free_bar(2));
   Simulation s = problem.start();
   Observer observer;
-  observer.stop = [&] { return s.step == 4 ? std::string("signal") : std::string(); };
+  observer.stop = [&] { return s.state.step == 4 ? std::string("signal") : std::string(); };
   std::string reason;
   EXPECT_EQ(run(s, observer, reason), "stopped");
   EXPECT_EQ(reason, "signal");
   EXPECT_EQ(summarise(s, {}, "stopped", reason).cause, "signal");
-  EXPECT_EQ(s.step, 4);
+  EXPECT_EQ(s.state.step, 4);
   EXPECT_FALSE(s.breakdown);
 }
 

@@ -53,7 +53,7 @@ TEST(Momentum, ChangesByTheBookedImpulseUnderEverySupportAndLoad) {
       const Problem problem(scene);
       Simulation s = problem.start();
       march(s, 300);
-      const Vec3& I = s.ledger.impulse;
+      const Vec3& I = s.books.impulse;
       EXPECT_FALSE(s.breakdown) << name(physics);
       EXPECT_GT(std::hypot(I[0], I[1], I[2]), 0.1 * momenta(s).linear_scale) << name(physics);
       EXPECT_LT(linear_momentum_drift(s), 1e-12) << name(physics) << ' ' << word(integrator);
@@ -71,17 +71,17 @@ TEST(Momentum, ChangesByReactionsTractionsAndWeightStepByStep) {
     scene.time.end = 0.02;
     const Problem problem(scene);
     Simulation s = problem.start();
-    ASSERT_EQ(s.boundary.held_faces, (std::vector<std::string>{"zmin", "xmin", "zmax"}));
+    ASSERT_EQ(s.domain.boundary.held_faces, (std::vector<std::string>{"zmin", "xmin", "zmax"}));
     Vec3 p = momenta(s).linear, t = scene.boundary[2].traction;
     const double area = 2;  // [m^2] ymax
     double worst = 0;
     Observer observer;
     observer.on_step = [&](const Simulation& now) {
-      Vec3 after = momenta(const_cast<Simulation&>(now)).linear, change = t;
+      Vec3 after = momenta(now).linear, change = t;
       for (int k = 0; k < 3; ++k) {
-        change[k] = area * t[k] + now.ledger.mass * scene.body_force[k];
+        change[k] = area * t[k] + now.books.mass * scene.body_force[k];
         for (int face = 0; face < 3; ++face) change[k] += reaction(now, face)[k];
-        worst = std::max(worst, std::abs(after[k] - p[k] - now.dt * change[k]));
+        worst = std::max(worst, std::abs(after[k] - p[k] - now.state.dt * change[k]));
       }
       p = after;
     };
@@ -100,7 +100,7 @@ TEST(Momentum, PressureOnAllFacesOfABodyGivesNoResultant) {
   Simulation s = problem.start();
   march(s, 200);
   const Momenta m = momenta(s);
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(m.linear[k], s.ledger.initial_momentum[k], 1e-13 * m.linear_scale);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(m.linear[k], s.books.initial_momentum[k], 1e-13 * m.linear_scale);
 }
 
 }  // namespace

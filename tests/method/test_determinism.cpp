@@ -16,8 +16,8 @@ std::string outcome(const Problem& problem, int threads) {
   std::string bits = state_hash(s);
   const Energies e = energies(s);
   const Momenta m = momenta(s);
-  for (double x : {s.dt, allowed_step(s), s.ledger.impulse[0], s.ledger.impulse[2], s.ledger.external_work,
-                   s.ledger.dissipated, e.kinetic, e.strain, m.linear[0], m.angular[1]})
+  for (double x : {s.state.dt, allowed_step(s), s.books.impulse[0], s.books.impulse[2], s.books.external_work,
+                   s.books.dissipated, e.kinetic, e.strain, m.linear[0], m.angular[1]})
     bits += ' ' + std::to_string(std::bit_cast<std::uint64_t>(x));
   return bits;
 }
@@ -26,7 +26,7 @@ TEST(Determinism, ThreadsChangeNoBit) {
   Scene scene = loaded_bar(9);
   scene.monitor.energy = true;
   Problem problem(scene);
-  ASSERT_GE(problem.start().order.parts.size(), 2u);
+  ASSERT_GE(problem.start().domain.order.parts.size(), 2u);
   for (const PhysicsSpec& physics : every_physics())
     for (auto integrator : integrators) {
       problem.scene.physics = physics;
@@ -40,7 +40,7 @@ TEST(Determinism, ThreadsChangeNoBit) {
 TEST(Determinism, ManyPartsOnManyThreadsChangeNoBit) {
   Scene scene = loaded_bar(16);
   const Problem problem(scene);
-  ASSERT_GE(problem.start().order.parts.size(), 8u);
+  ASSERT_GE(problem.start().domain.order.parts.size(), 8u);
   std::set<std::string> outcomes;
   for (int threads = 1; threads <= 5; ++threads) outcomes.insert(outcome(problem, threads));
   EXPECT_EQ(outcomes.size(), 1u);
@@ -67,9 +67,9 @@ TEST(Determinism, FluxOfACutEdgeIsBitwiseOppositeInItsTwoParts) {
       for (int i = 0; i < 4; ++i) u.W[u.now][row::W * n + i] = uniform(random);
       for (int m = 0; m < 18; ++m) u.PH[u.now][row::PH * n + 4 * (m / 3) + m % 3] = uniform(random);
     }
-    Aligned<double> G(row::G * s.order.rows, 0.0);
+    Aligned<double> G(row::G * s.domain.order.rows, 0.0);
     Rows rows{};
-    rows.X = u.X.data();
+    rows.X = s.domain.X.data();
     rows.W = u.W[u.now].data();
     rows.PH = u.PH[u.now].data();
     rows.G = G.data();
@@ -77,20 +77,22 @@ TEST(Determinism, FluxOfACutEdgeIsBitwiseOppositeInItsTwoParts) {
     rows.PH_new = u.PH[1 - u.now].data();
     rows.lagged_q = u.q.data();
     rows.GP = u.GP.data();
-    for (const Part& part : s.order.parts)
-      s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
-    if (s.functions.corrects_stress) rows.PH = rows.PH_new;
+    for (const Part& part : s.domain.order.parts)
+      s.domain.functions.gradient(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows,
+                                  s.domain.coefficients);
+    if (s.domain.functions.corrects_stress) rows.PH = rows.PH_new;
     const int width = physics.flux_correction == FluxCorrection::none ? 4 : 8;
     std::map<std::pair<int, int>, std::array<double, 4>> flux;
     int pairs = 0, unequal = 0;
-    for (const Part& part : s.order.parts) {
-      double* edge = s.scratch[0].data();
-      const Scratch scratch{edge, edge + 8 * (s.order.most_edges + 8), nullptr, nullptr};
-      s.functions.edge_flux(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients, scratch);
+    for (const Part& part : s.domain.order.parts) {
+      double* edge = s.team.scratch[0].data();
+      const Scratch scratch{edge, edge + 8 * (s.domain.order.most_edges + 8), nullptr, nullptr};
+      s.domain.functions.edge_flux(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows,
+                                   s.domain.coefficients, scratch);
       for (int e = part.edge_begin; e < part.edge_end; ++e) {
         const double* f = scratch.edge + width * (e - part.edge_begin);
-        flux[{s.order.a[e], s.order.b[e]}] = {f[0], f[1], f[2], f[3]};
-        const auto other = flux.find({s.order.b[e], s.order.a[e]});
+        flux[{s.domain.order.a[e], s.domain.order.b[e]}] = {f[0], f[1], f[2], f[3]};
+        const auto other = flux.find({s.domain.order.b[e], s.domain.order.a[e]});
         if (other == flux.end()) continue;
         ++pairs;
         for (int i = 0; i < 4; ++i) unequal += f[i] != -other->second[i];

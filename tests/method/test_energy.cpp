@@ -48,7 +48,7 @@ Audit audit(Scene scene, double noise = 0) {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> uniform(-noise, noise);
   if (noise > 0) {
-    for (int n = 0; n < s.order.nodes; ++n)
+    for (int n = 0; n < s.domain.order.nodes; ++n)
       for (int k = 0; k < 3; ++k) U_of(s, n)[k] += uniform(random);
     adopt_state(s);
   }
@@ -59,16 +59,16 @@ Audit audit(Scene scene, double noise = 0) {
     const Energies e = energies(s);
     a.worst_closure = std::max(a.worst_closure, energy_closure(s, e));
     a.worst_growth = std::max(a.worst_growth,
-                              (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy - 1);
-    a.least_dissipation = std::min(a.least_dissipation, s.ledger.dissipated - dissipated);
-    dissipated = s.ledger.dissipated;
+                              (e.kinetic + e.strain - s.books.external_work) / s.books.initial_energy - 1);
+    a.least_dissipation = std::min(a.least_dissipation, s.books.dissipated - dissipated);
+    dissipated = s.books.dissipated;
   };
   std::string reason;
   a.status = run(s, observer, reason);
   const Energies e = energies(s);
   a.closure = energy_closure(s, e);
-  a.final_energy = (e.kinetic + e.strain) / s.ledger.initial_energy;
-  a.external_work = s.ledger.external_work;
+  a.final_energy = (e.kinetic + e.strain) / s.books.initial_energy;
+  a.external_work = s.books.external_work;
   return a;
 }
 
@@ -193,7 +193,7 @@ TEST(EnergyAudit, ClosesAcrossTheCutEdgesOfParts) {
   scene.time.end = 0.002;
   scene.time.integrator = Integrator::ssp_rk3;
   scene.time.cfl = 0.2;
-  ASSERT_GE(Problem(scene).start().order.parts.size(), 2u);
+  ASSERT_GE(Problem(scene).start().domain.order.parts.size(), 2u);
   const double whole = audit(scene).worst_closure;
   scene.time.cfl /= 2;
   const double half = audit(scene).worst_closure;
@@ -208,7 +208,7 @@ TEST(EnergyAudit, OfAFreeFallIsExact) {
   scene.initial.field = InitialField::rest;
   scene.body_force = {3, -5, -9.81};
   const Problem problem(scene);
-  ASSERT_GT(problem.start().order.rows, problem.start().order.nodes);
+  ASSERT_GT(problem.start().domain.order.rows, problem.start().domain.order.nodes);
   for (auto integrator : integrators) {
     scene.time.integrator = integrator;
     EXPECT_LT(audit(scene).closure, 1e-13) << word(integrator);
@@ -323,23 +323,24 @@ double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation f
     for (int m = 0; m < 9; ++m)
       u.PH[u.now][row::PH * n + 8 * (m / 3) + 4 + m % 3] = (m % 4 == 0) + 0.4 * uniform(random);
   }
-  Aligned<double> G(row::G * s.order.rows, 0.0);
+  Aligned<double> G(row::G * s.domain.order.rows, 0.0);
   Rows rows{};
-  rows.X = u.X.data();
+  rows.X = s.domain.X.data();
   rows.W = u.W[u.now].data();
   rows.PH = u.PH[u.now].data();
   rows.G = G.data();
-  for (const Part& part : s.order.parts)
-    s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+  for (const Part& part : s.domain.order.parts)
+    s.domain.functions.gradient(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows,
+                                s.domain.coefficients);
   const PartFunctions audited = find_part_functions(scene.physics, scene.material, Materials::one, true);
   double least = 1e300;
   total = 0;
-  for (int e = 0; e < s.order.out.back(); ++e) {
+  for (int e = 0; e < s.domain.order.out.back(); ++e) {
     Part one{};
     one.edge_begin = e;
     one.edge_end = e + 1;
-    const double power = audited.edge_flux(one, s.order.edges(), s.order.corners(), s.order.lists(), rows,
-                                           s.coefficients, scratch_of(s, 0));
+    const double power = audited.edge_flux(one, s.domain.order.edges(), s.domain.order.corners(),
+                                           s.domain.order.lists(), rows, s.domain.coefficients, scratch_of(s, 0));
     least = std::min(least, power);
     total += power;
   }

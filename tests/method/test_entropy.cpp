@@ -75,7 +75,7 @@ TEST(EntropyProduction, IsTheDissipationOfTheAuditAndChangesNoBit) {
     scene.physics.flux_correction = correction;
     const Problem problem(scene);
     Simulation s = problem.start(2), unseen = problem.start(2);
-    ASSERT_GE(s.order.parts.size(), 2u);
+    ASSERT_GE(s.domain.order.parts.size(), 2u);
     march(s, 2);
     march(unseen, 2);
     const EntropyProduction e = entropy_production(s);
@@ -88,10 +88,10 @@ TEST(EntropyProduction, IsTheDissipationOfTheAuditAndChangesNoBit) {
     march(s, 2);
     march(unseen, 2);
     EXPECT_EQ(state_hash(s), state_hash(unseen));
-    EXPECT_EQ(s.ledger.dissipated, unseen.ledger.dissipated);
+    EXPECT_EQ(s.books.dissipated, unseen.books.dissipated);
     double ours[9], theirs[9];
     entropy_production(s);
-    for (int n = 0; n < s.order.nodes; ++n) {
+    for (int n = 0; n < s.domain.order.nodes; ++n) {
       field_at(s, "P", n, ours);
       field_at(unseen, "P", n, theirs);
       for (int k = 0; k < 9; ++k) EXPECT_EQ(ours[k], theirs[k]);

@@ -24,23 +24,24 @@ TEST(Jst, PseudoLaplacianOfLinearFieldsIsZeroOnAnIrregularMesh) {
   scene.physics.stabilisation = Stabilisation::jst;
   const Problem problem(scene);
   Simulation s = problem.start();
-  Aligned<double> W(row::W * s.order.rows, 0.0);
-  Rows rows = stage_rows(s.state, 0, 0);
+  Aligned<double> W(row::W * s.domain.order.rows, 0.0);
+  Rows rows = stage_rows(s.domain, s.state, 0, 0);
   rows.W = W.data();
   const auto largest = [&] {
-    for (const Part& part : s.order.parts)
-      s.functions.gradient(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+    for (const Part& part : s.domain.order.parts)
+      s.domain.functions.gradient(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows,
+                                  s.domain.coefficients);
     double worst = 0;
     for (int n : real_rows(s))
       for (int i = 0; i < 4; ++i) worst = std::max(worst, std::abs(s.state.L[row::L * n + i]));
     return worst;
   };
   for (int n : real_rows(s)) {
-    const Vec3& X = problem.mesh.X[s.order.node_of[n]];
+    const Vec3& X = problem.mesh.X[s.domain.order.node_of[n]];
     for (int i = 0; i < 4; ++i) W[row::W * n + i] = 0.5 * i + (i + 1) * X[0] - 2 * X[1] + (3 - i) * X[2];
   }
   EXPECT_LT(largest(), 1e-12);
-  for (int n : real_rows(s)) W[row::W * n] += std::pow(problem.mesh.X[s.order.node_of[n]][0], 2);
+  for (int n : real_rows(s)) W[row::W * n] += std::pow(problem.mesh.X[s.domain.order.node_of[n]][0], 2);
   EXPECT_GT(largest(), 1e-2);
 }
 
@@ -69,7 +70,7 @@ TEST(Jst, ThreadsChangeNoBit) {
   std::set<std::string> hashes;
   for (int threads : {1, 2, 3}) {
     Simulation s = problem.start(threads);
-    ASSERT_GE(s.order.parts.size(), 2u);
+    ASSERT_GE(s.domain.order.parts.size(), 2u);
     march(s, 3);
     hashes.insert(state_hash(s));
   }

@@ -30,7 +30,7 @@ TEST(LaggedCorrection, IsThatOfTheVelocityGradientInTheLastStage) {
     march(s, 3);
     ASSERT_TRUE(s.state.has_lagged_correction);
     const auto G = [&](int n, int i, int K) {
-      return s.state.G[row::G * static_cast<std::size_t>(s.order.row_of[n]) + 4 * K + i];
+      return s.state.G[row::G * static_cast<std::size_t>(s.domain.order.row_of[n]) + 4 * K + i];
     };  // still that of the last stage
     std::vector<Tensor<double>> dG(problem.mesh.X.size());
     for (const DualEdge& e : make_dual(problem.mesh).edges)
@@ -40,16 +40,16 @@ TEST(LaggedCorrection, IsThatOfTheVelocityGradientInTheLastStage) {
           q += (G(e.a, i, K) - G(e.b, i, K)) * (problem.mesh.X[e.b][K] - problem.mesh.X[e.a][K])
                / 6;  // theta/4, theta = 2/3
         for (int I = 0; I < 3; ++I) {
-          dG[e.a][i][I] += q * e.C[I] / s.volume[e.a];
-          dG[e.b][i][I] -= q * e.C[I] / s.volume[e.b];
+          dG[e.a][i][I] += q * e.C[I] / s.domain.volume[e.a];
+          dG[e.b][i][I] -= q * e.C[I] / s.domain.volume[e.b];
         }
       }
     double largest = 0;
     for (const auto& g : dG)
       for (int m = 0; m < 9; ++m) largest = std::max(largest, std::abs(g[m / 3][m % 3]));
-    for (int n = 0; n < s.order.nodes; ++n)
+    for (int n = 0; n < s.domain.order.nodes; ++n)
       for (int m = 0; m < 9; ++m)
-        EXPECT_NEAR(s.state.U[1][row::U * static_cast<std::size_t>(s.order.row_of[n]) + 4 * (m / 3) + m % 3],
+        EXPECT_NEAR(s.state.U[1][row::U * static_cast<std::size_t>(s.domain.order.row_of[n]) + 4 * (m / 3) + m % 3],
                     dG[n][m % 3][m / 3], 1e-13 * largest);
   }
 }
@@ -63,17 +63,18 @@ TEST(LaggedCorrection, StandsInTheStressRowsButNotInWhatIsWritten) {
     march(s, 3);
     Simulation plain = fresh(problem, s);
     double of_rows = 0;
-    for (int n = 0; n < s.order.nodes; ++n) {
-      const std::size_t r = row::PH * static_cast<std::size_t>(s.order.row_of[n]);
+    for (int n = 0; n < s.domain.order.nodes; ++n) {
+      const std::size_t r = row::PH * static_cast<std::size_t>(s.domain.order.row_of[n]);
       of_rows = std::max(of_rows, std::abs(s.state.PH[s.state.now][r] - plain.state.PH[plain.state.now][r]));
       for (const char* name : {"P", "pressure", "von_mises"}) {
         double ours[9] = {}, theirs[9] = {};
         field_at(s, name, n, ours);
         field_at(plain, name, n, theirs);
-        for (int k = 0; k < 9; ++k) EXPECT_NEAR(ours[k], theirs[k], 1e-11 * s.coefficients.material.kappa) << name;
+        for (int k = 0; k < 9; ++k)
+          EXPECT_NEAR(ours[k], theirs[k], 1e-11 * s.domain.coefficients.material.kappa) << name;
       }
     }
-    EXPECT_GT(of_rows, 1e-6 * s.coefficients.material.kappa);
+    EXPECT_GT(of_rows, 1e-6 * s.domain.coefficients.material.kappa);
   }
 }
 
@@ -100,7 +101,7 @@ TEST(LaggedCorrection, ChangesTheResultBySecondOrderOfTheStep) {
         const int steps = 20 << k;
         Simulation lagged = problem.start(), found = problem.start();
         for (int i = 0; i < steps; ++i) {
-          lagged.dt = found.dt = 0.01 / steps;
+          lagged.state.dt = found.state.dt = 0.01 / steps;
           found.state.has_lagged_correction = false;
           if (correction == full && i > 0) {  // the stress without the correction, as a stage that finds it reads it
             State& u = found.state;

@@ -17,7 +17,7 @@ TEST(Limiter, ThreadsChangeNoBit) {
     std::set<std::string> hashes;
     for (int threads : {1, 2, 3}) {
       Simulation s = problem.start(threads);
-      ASSERT_GE(s.order.parts.size(), 2u);
+      ASSERT_GE(s.domain.order.parts.size(), 2u);
       march(s, 3);
       hashes.insert(state_hash(s));
     }
@@ -36,7 +36,7 @@ TEST(Limiter, DissipatesMoreThanLinearAndLessThanConstant) {
     Simulation s = problem.start();
     EXPECT_EQ(run_quietly(s), "done");
     const Energies e = energies(s);
-    left[static_cast<int>(reconstruction)] = (e.kinetic + e.strain) / s.ledger.initial_energy;
+    left[static_cast<int>(reconstruction)] = (e.kinetic + e.strain) / s.books.initial_energy;
     EXPECT_LT(energy_closure(s, energies(s)), reconstruction == Reconstruction::limited ? 3e-3 : 1e-3)
         << word(reconstruction);  // a limiter has kinks, the integrator feels them
   }

@@ -66,18 +66,18 @@ TEST(Materials, MassIsThatOfTheRegions) {
   EXPECT_GT(volume[1], 0.5);
   const double mass = 1100 * volume[0] + 7.3 * 1100 * volume[1];
   const Simulation s = two.start();
-  EXPECT_NEAR(s.ledger.mass, mass, 1e-13 * mass);
+  EXPECT_NEAR(s.books.mass, mass, 1e-13 * mass);
 }
 
 TEST(Materials, InterfaceNodesExist) {
   const TwoMaterials two(free_bar(4), rubber(), times(rubber(), 2, 1));
   const Simulation s = two.start();
   int mixed = 0;
-  for (int n = 0; n < s.order.nodes; ++n) {
-    const std::size_t r = static_cast<std::size_t>(s.order.row_of[n]);
-    EXPECT_NEAR(s.mixture.share[0][r] + s.mixture.share[1][r], 1, 1e-15);
-    EXPECT_NEAR(s.mixture.rho[r], 1100 * (1 + s.mixture.share[1][r]), 1e-12 * 1100);
-    mixed += s.mixture.share[0][r] > 0 && s.mixture.share[1][r] > 0;
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
+    const std::size_t r = static_cast<std::size_t>(s.domain.order.row_of[n]);
+    EXPECT_NEAR(s.domain.mixture.share[0][r] + s.domain.mixture.share[1][r], 1, 1e-15);
+    EXPECT_NEAR(s.domain.mixture.rho[r], 1100 * (1 + s.domain.mixture.share[1][r]), 1e-12 * 1100);
+    mixed += s.domain.mixture.share[0][r] > 0 && s.domain.mixture.share[1][r] > 0;
   }
   EXPECT_GT(mixed, 20);
 }
@@ -94,20 +94,20 @@ TEST(Materials, EqualOnesAreOneMaterial) {
       const TwoMaterials two(scene, law, law);
       const Problem one(scene, two.mesh);
       Simulation a = one.start(), b = two.start();
-      EXPECT_NEAR(a.ledger.initial_energy, b.ledger.initial_energy, 1e-13 * a.ledger.initial_energy);
+      EXPECT_NEAR(a.books.initial_energy, b.books.initial_energy, 1e-13 * a.books.initial_energy);
       const double dt = allowed_step(a);
       EXPECT_NEAR(allowed_step(b), dt, 1e-13 * dt);
       march(a, dt, 40);
       march(b, dt, 40);
       double worst = 0, v = 0;
-      for (int n = 0; n < a.order.nodes; ++n)
+      for (int n = 0; n < a.domain.order.nodes; ++n)
         for (int k = 0; k < row::U; ++k) {
           worst = std::max(worst, std::abs(U_of(a, n)[k] - U_of(b, n)[k]) / (k < 3 ? 100 : 1));
           v = std::max(v, std::abs(U_of(a, n)[0]));
         }
       EXPECT_LE(worst, 1e-12) << name(p);
       EXPECT_GT(v, 1) << name(p);
-      EXPECT_NEAR(energies(a).strain, energies(b).strain, 1e-11 * a.ledger.initial_energy);
+      EXPECT_NEAR(energies(a).strain, energies(b).strain, 1e-11 * a.books.initial_energy);
     }
 }
 
@@ -119,10 +119,10 @@ TEST(Materials, BitwiseForAnyThreadCount) {
   std::vector<double> dissipated;
   for (const int threads : {1, 2, 3}) {
     Simulation s = two.start(threads);
-    EXPECT_GT(s.order.parts.size(), 1u);
+    EXPECT_GT(s.domain.order.parts.size(), 1u);
     march(s, 10);
     hashes.push_back(state_hash(s));
-    dissipated.push_back(s.ledger.dissipated);
+    dissipated.push_back(s.books.dissipated);
   }
   EXPECT_EQ(hashes[0], hashes[1]);
   EXPECT_EQ(hashes[0], hashes[2]);
@@ -143,12 +143,12 @@ TEST(Materials, EnergyNeverGrowsAcrossAThousandfoldJump) {
       scene.initial.twist_omega = 5;
       const TwoMaterials two(scene, rubber(), times(rubber(), j.density, j.stiffness));
       Simulation s = two.start();
-      double largest = 0, before = s.ledger.initial_energy, grown = 0;
+      double largest = 0, before = s.books.initial_energy, grown = 0;
       for (int i = 0; i < 400 && !s.breakdown; ++i) {
         march(s, 1);
         if (i % 10 != 9) continue;
         const Energies e = energies(s);
-        largest = std::max(largest, (e.kinetic + e.strain) / s.ledger.initial_energy);
+        largest = std::max(largest, (e.kinetic + e.strain) / s.books.initial_energy);
         grown = std::max(grown, (e.kinetic + e.strain) / before - 1);
         before = e.kinetic + e.strain;
       }
@@ -187,15 +187,15 @@ TEST(Materials, PlasticBesideElastic) {
   march(s, 200);
   ASSERT_FALSE(s.breakdown) << s.breakdown->text;
   double in_plastic = 0, in_elastic = 0;
-  for (int n = 0; n < s.order.nodes; ++n) {
-    const std::size_t r = static_cast<std::size_t>(s.order.row_of[n]);
-    double& most = s.mixture.share[1][r] > 0 ? in_plastic : in_elastic;
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
+    const std::size_t r = static_cast<std::size_t>(s.domain.order.row_of[n]);
+    double& most = s.domain.mixture.share[1][r] > 0 ? in_plastic : in_elastic;
     most = std::max(most, s.state.plastic[row::plastic * r + 3]);
   }
   EXPECT_GT(in_plastic, 0.01);
   EXPECT_EQ(in_elastic, 0);
   const Energies e = energies(s);
-  EXPECT_LE(e.kinetic + e.strain, s.ledger.initial_energy * (1 + 1e-6));
+  EXPECT_LE(e.kinetic + e.strain, s.books.initial_energy * (1 + 1e-6));
   EXPECT_LE(energy_closure(s, energies(s)), 1e-3);
 }
 
@@ -220,9 +220,9 @@ TEST(Materials, ThePressureJumpsBetweenThemWithoutBeingTakenForACheckerboard) {
   Simulation s = two.start();
   const auto set_pressure = [&](double noise) {
     std::mt19937 random(3);
-    for (int n = 0; n < s.order.rows; ++n) {
+    for (int n = 0; n < s.domain.order.rows; ++n) {
       const std::size_t r = static_cast<std::size_t>(n);
-      const double *X = &s.state.X[row::X * r], stiff = s.mixture.share[1][r], sign = random() % 2 ? 1 : -1;
+      const double *X = &s.domain.X[row::X * r], stiff = s.domain.mixture.share[1][r], sign = random() % 2 ? 1 : -1;
       s.state.W[s.state.now][row::W * r + 3] = (1 - stiff) * (1 + X[0] - 2 * X[2])
                                                + stiff * (1000 + 300 * X[1] + 50 * X[2]) + noise * sign;
     }
@@ -236,7 +236,7 @@ TEST(Materials, ThePressureJumpsBetweenThemWithoutBeingTakenForACheckerboard) {
 TEST(Materials, NoCheckerboardIsToldOfWhereEveryNodeIsNextToAnInterface) {
   const TwoMaterials two(free_bar(1), rubber(), times(rubber(), 1, 1000));
   Simulation s = two.start();
-  for (int n = 0; n < s.order.rows; ++n) s.state.W[s.state.now][static_cast<std::size_t>(row::W * n + 3)] = n;
+  for (int n = 0; n < s.domain.order.rows; ++n) s.state.W[s.state.now][static_cast<std::size_t>(row::W * n + 3)] = n;
   EXPECT_TRUE(std::isnan(checkerboard(s).measure));
   const Problem one(free_bar(1));
   Simulation at_rest = one.start();

@@ -83,7 +83,7 @@ TEST(Involutions, OfAFieldWrittenByHandAreItsDefects) {
   EXPECT_LT(involutions(s).J, 1e-15);
   U_of(s, 7)[3] += 0.25;
   EXPECT_NEAR(involutions(s).J, 0.25, 1e-14);
-  s.state.H[0][row::H * s.order.row_of[3] + 5] += 0.125;
+  s.state.H[0][row::H * s.domain.order.row_of[3] + 5] += 0.125;
   EXPECT_NEAR(involutions(s).H, 0.125, 1e-14);
   U_of(s, 9)[4] += 0.5;
   EXPECT_NEAR(involutions(s).F, 0.5, 1e-12);
@@ -179,7 +179,7 @@ TEST(Extremes, OfAStateAreThoseOfAPlainLoop) {
       least_tet = std::min(least_tet,
                            tet_volume(p[0], p[1], p[2], p[3]) / tet_volume(X[t[0]], X[t[1]], X[t[2]], X[t[3]]));
     }
-    for (int n = 0; n < s.order.nodes; ++n) {
+    for (int n = 0; n < s.domain.order.nodes; ++n) {
       double d, J;
       field_at(s, "detF", n, &d);
       field_at(s, "J", n, &J);
@@ -204,8 +204,8 @@ TEST(Extremes, AreTheWorstOfTheHistoryRowsWithTheirTimes) {
   Observer observer;
   observer.on_history = [&](const Simulation& now) {
     const Extrema x = extrema(s);
-    if (!(x.min_tet_ratio >= least.value)) least = {x.min_tet_ratio, now.t};
-    if (!(x.max_speed <= fastest.value)) fastest = {x.max_speed, now.t};
+    if (!(x.min_tet_ratio >= least.value)) least = {x.min_tet_ratio, now.state.t};
+    if (!(x.max_speed <= fastest.value)) fastest = {x.max_speed, now.state.t};
   };
   std::string reason;
   EXPECT_EQ(run(s, observer, reason), "done") << reason;

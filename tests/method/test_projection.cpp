@@ -20,40 +20,41 @@ struct Operators {
   Problem problem;
   Simulation s;
   ProjectionRows rows;
+  ProjectionCoefficients k;
   std::mt19937_64 random{11};
 
   explicit Operators(const Scene& scene) : problem(scene), s(problem.start()) {
     std::uniform_real_distribution<double> uniform(-0.15, 0.15);
-    for (int n = 0; n < s.order.nodes; ++n)
+    for (int n = 0; n < s.domain.order.nodes; ++n)
       for (int m = 0; m < 9; ++m) U_of(s, n)[4 * (m / 3 + 1) + m % 3] += uniform(random);
     adopt_state(s);
-    s.projection.coefficients.dt = 1e-3;
+    s.state.dt = 1e-3;
+    k = projection_coefficients(s);
     rows = projection_rows(s, 0, 1);
-    for (const Part& part : s.projection.parts)
-      projection_edges_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients);
+    for (const Part& part : s.domain.projection.parts)
+      projection_edges_part(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows, k);
     s.state.U[1] = s.state.U[0];
-    for (const Part& part : s.projection.parts)
-      projection_start_part(part, s.order.edges(), s.order.lists(), rows, s.projection.coefficients);
+    for (const Part& part : s.domain.projection.parts)
+      projection_start_part(part, s.domain.order.edges(), s.domain.order.lists(), rows, k);
   }
   std::vector<double> field(int count) {
     std::normal_distribution<double> normal;
-    std::vector<double> f(static_cast<std::size_t>(count * s.order.rows), 0.0);
+    std::vector<double> f(static_cast<std::size_t>(count * s.domain.order.rows), 0.0);
     for (int n : real_rows(s))
       for (int k = 0; k < count; ++k) f[static_cast<std::size_t>(count * n + k)] = normal(random);
     return f;
   }
   /// V = 1/(rho Omega) Pi f_H(q), S(q).
   void force(const std::vector<double>& q) {
-    std::copy(q.begin(), q.end(), s.projection.d.begin());
-    for (const Part& part : s.projection.parts)
-      pressure_force_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.projection.coefficients, 0,
-                          s.projection.coefficients.dt);
+    std::copy(q.begin(), q.end(), s.state.projection.d.begin());
+    for (const Part& part : s.domain.projection.parts)
+      pressure_force_part(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows, k, 0,
+                          k.dt);
   }
   const Aligned<double>& apply() {
-    for (const Part& part : s.projection.parts)
-      pressure_operator_part(part, s.order.edges(), s.order.corners(), s.order.lists(), rows,
-                             s.projection.coefficients);
-    return s.projection.Kd;
+    for (const Part& part : s.domain.projection.parts)
+      pressure_operator_part(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows, k);
+    return s.state.projection.Kd;
   }
 };
 
@@ -64,14 +65,14 @@ TEST(Projection, DivergenceAndPressureForceAreAdjoint) {
   double vf = 0, qD = 0, size = 0;
   for (int n : real_rows(o.s))
     for (int k = 0; k < 3; ++k) {
-      const double mass = 1100 / o.s.state.X[row::X * n + 3],
-                   f = mass / o.s.projection.coefficients.dt * o.s.projection.V[row::V * n + k];
+      const double mass = 1100 / o.s.domain.X[row::X * n + 3],
+                   f = mass / o.k.dt * o.s.state.projection.V[row::V * n + k];
       vf += v[3 * n + k] * f;
       size += std::abs(v[3 * n + k] * f);
     }
-  std::fill(o.s.projection.d.begin(), o.s.projection.d.end(), 0.0);
-  for (int n = 0; n < o.s.order.rows; ++n)
-    for (int k = 0; k < 4; ++k) o.s.projection.V[row::V * n + k] = k < 3 ? v[3 * n + k] : 0.0;
+  std::fill(o.s.state.projection.d.begin(), o.s.state.projection.d.end(), 0.0);
+  for (int n = 0; n < o.s.domain.order.rows; ++n)
+    for (int k = 0; k < 4; ++k) o.s.state.projection.V[row::V * n + k] = k < 3 ? v[3 * n + k] : 0.0;
   const auto& Kd = o.apply();  // - D_H(v)
   for (int n : real_rows(o.s)) qD -= q[n] * Kd[n];
   EXPECT_NEAR(vf, -qD, 1e-13 * size);
@@ -81,7 +82,7 @@ TEST(Projection, PressureForceIsThatOfTheStressSweep) {
   Operators o(incompressible(free_bar(3)));
   const std::vector<double> q = o.field(1);
   State& u = o.s.state;
-  for (int n = 0; n < o.s.order.rows; ++n)
+  for (int n = 0; n < o.s.domain.order.rows; ++n)
     for (int k = 0; k < 4; ++k) {
       u.W[0][row::W * n + k] = 0;
       for (int I = 0; I < 3; ++I) u.PH[0][row::PH * n + 8 * I + k] = q[n] * u.PH[0][row::PH * n + 8 * I + 4 + k];
@@ -90,7 +91,7 @@ TEST(Projection, PressureForceIsThatOfTheStressSweep) {
   o.force(q);
   for (int n : real_rows(o.s))
     for (int k = 0; k < 3; ++k) {
-      const double rate = o.s.projection.V[row::V * n + k] / o.s.projection.coefficients.dt;
+      const double rate = o.s.state.projection.V[row::V * n + k] / o.k.dt;
       EXPECT_NEAR(whole.U[row::U * n + k], rate, 1e-13 * (1 + std::abs(rate))) << n;
     }
 }
@@ -98,15 +99,15 @@ TEST(Projection, PressureForceIsThatOfTheStressSweep) {
 TEST(Projection, DivergenceIsTheCofactorOnTheGreenGaussGradient) {
   Operators o(incompressible(free_bar(3)));
   const std::vector<double> v = o.field(3);
-  std::fill(o.s.projection.d.begin(), o.s.projection.d.end(), 0.0);
+  std::fill(o.s.state.projection.d.begin(), o.s.state.projection.d.end(), 0.0);
   for (int n : real_rows(o.s))
-    for (int k = 0; k < 3; ++k) o.s.projection.V[row::V * n + k] = o.s.state.U[1][row::U * n + k] = v[3 * n + k];
+    for (int k = 0; k < 3; ++k) o.s.state.projection.V[row::V * n + k] = o.s.state.U[1][row::U * n + k] = v[3 * n + k];
   const auto& Kd = o.apply();
-  for (const Part& part : o.s.projection.parts)
-    constraint_residual_part(part, o.s.order.edges(), o.s.order.corners(), o.s.order.lists(), o.rows,
-                             o.s.projection.coefficients);
+  for (const Part& part : o.s.domain.projection.parts)
+    constraint_residual_part(part, o.s.domain.order.edges(), o.s.domain.order.corners(), o.s.domain.order.lists(),
+                             o.rows, o.k);
   for (int n : real_rows(o.s))
-    EXPECT_NEAR(o.s.projection.R[n] - o.s.projection.fixed[n], -Kd[n],
+    EXPECT_NEAR(o.s.state.projection.R[n] - o.s.state.projection.fixed[n], -Kd[n],
                 1e-13 * (1 + std::abs(Kd[n])));  // the same F, hence H, here
 }
 
@@ -140,9 +141,9 @@ TEST(Projection, SupportsAndLoadsBalanceTheMomentum) {
     march(s, 20);
     ASSERT_FALSE(s.breakdown) << s.breakdown->text;
     EXPECT_LT(linear_momentum_drift(s), 1e-12);
-    for (int n = 0; n < s.order.nodes; ++n)
+    for (int n = 0; n < s.domain.order.nodes; ++n)
       if (problem.mesh.X[n][2] == 2) {
-        EXPECT_NEAR(U_of(s, n)[2], -6 * value_at(scene.boundary[4].time, s.t), 1e-12);  // prescribed
+        EXPECT_NEAR(U_of(s, n)[2], -6 * value_at(scene.boundary[4].time, s.state.t), 1e-12);  // prescribed
       }
   }
 }
@@ -154,7 +155,7 @@ TEST(Projection, ThreadsDoNotChangeABit) {
     scene.projection.length_scale = 0.2;
     const Problem problem(scene);
     Simulation one = problem.start(1), two = problem.start(2);
-    ASSERT_GT(one.order.parts.size(), 1u);
+    ASSERT_GT(one.domain.order.parts.size(), 1u);
     march(one, 3);
     march(two, 3);
     EXPECT_EQ(state_hash(one), state_hash(two));
@@ -172,7 +173,7 @@ TEST(Projection, SolversAgree) {
   Simulation a = cg.start(), b = pseudo.start();
   ASSERT_EQ(run_quietly(a), "done");
   ASSERT_EQ(run_quietly(b), "done");
-  for (int n = 0; n < a.order.nodes; ++n)
+  for (int n = 0; n < a.domain.order.nodes; ++n)
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(U_of(a, n)[k], U_of(b, n)[k], 1e-3);  // [m/s] of some 100
 }
 
@@ -196,12 +197,12 @@ TEST(Projection, ALimitThatIsMetStopsTheRunUnlessItOnlyWarns) {
 TEST(Projection, UniformTranslationIsExactAndCostsNoIteration) {
   const Problem problem(incompressible(free_bar(3)));
   Simulation s = problem.start();
-  for (int n = 0; n < s.order.nodes; ++n)
+  for (int n = 0; n < s.domain.order.nodes; ++n)
     for (int k = 0; k < 3; ++k) U_of(s, n)[k] = k + 1.0;
   adopt_state(s);
   march(s, 10);
-  EXPECT_EQ(s.projection.iterations, 0);
-  for (int n = 0; n < s.order.nodes; ++n) {
+  EXPECT_EQ(s.state.projection.iterations, 0);
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
     EXPECT_EQ(U_of(s, n)[3], 0);
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(U_of(s, n)[k], k + 1.0, 1e-12);
   }
@@ -219,9 +220,9 @@ Rest rest_under_gravity(const Scene& scene, double p_top, double z0) {
   EXPECT_FALSE(s.breakdown);
   Rest worst;
   const double g = -scene.body_force[2], rho_g = 1100 * g;
-  for (int n = 0; n < s.order.nodes; ++n) {
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
     const double* U = U_of(s, n);
-    worst.speed = std::max(worst.speed, std::hypot(U[0], U[1], U[2]) / (g * s.t));
+    worst.speed = std::max(worst.speed, std::hypot(U[0], U[1], U[2]) / (g * s.state.t));
     worst.pressure = std::max(worst.pressure,
                               std::abs(U[3] - p_top - rho_g * (problem.mesh.X[n][2] - z0)) / (rho_g * 2));
   }
@@ -273,9 +274,9 @@ TEST(Projection, VortexInAClosedBoxKeepsVolumeAndEnergyBalance) {
   scene.monitor.energy = true;
   const Problem problem(scene);
   Simulation s = problem.start();
-  ASSERT_TRUE(s.projection.closed);
+  ASSERT_TRUE(s.domain.projection.closed);
   constexpr double pi = 3.14159265358979323846;
-  for (int n = 0; n < s.order.nodes; ++n) {  // divergence-free and tangential at the walls
+  for (int n = 0; n < s.domain.order.nodes; ++n) {  // divergence-free and tangential at the walls
     const Vec3& X = problem.mesh.X[n];
     U_of(s, n)[0] = 20 * std::sin(pi * X[0]) * std::cos(pi * X[1]);
     U_of(s, n)[1] = -20 * std::cos(pi * X[0]) * std::sin(pi * X[1]);
@@ -284,16 +285,16 @@ TEST(Projection, VortexInAClosedBoxKeepsVolumeAndEnergyBalance) {
   march(s, 60);
   ASSERT_FALSE(s.breakdown) << s.breakdown->text;
   double mean = 0, volume = 0;
-  for (int n = 0; n < s.order.nodes; ++n) {
-    mean += s.volume[n] * U_of(s, n)[3];
-    volume += s.volume[n];
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
+    mean += s.domain.volume[n] * U_of(s, n)[3];
+    volume += s.domain.volume[n];
   }
   EXPECT_LT(std::abs(mean / volume), 1e-9 * 1100 * 20 * 20);
   const Energies e = energies(s);
-  EXPECT_GT((e.kinetic + e.strain) / s.ledger.initial_energy, 0.5);
-  EXPECT_LE((e.kinetic + e.strain) / s.ledger.initial_energy, 1 + 1e-6);
+  EXPECT_GT((e.kinetic + e.strain) / s.books.initial_energy, 0.5);
+  EXPECT_LE((e.kinetic + e.strain) / s.books.initial_energy, 1 + 1e-6);
   EXPECT_LT(energy_closure(s, energies(s)), 0.02);
-  EXPECT_LT(static_cast<double>(s.projection.iterations) / static_cast<double>(s.projection.stages), 5);
+  EXPECT_LT(static_cast<double>(s.state.projection.iterations) / static_cast<double>(s.state.projection.stages), 5);
   const Extrema x = extrema(s);
   EXPECT_GT(x.min_detF, 0.99);
   EXPECT_LT(x.max_detF, 1.01);
@@ -301,11 +302,11 @@ TEST(Projection, VortexInAClosedBoxKeepsVolumeAndEnergyBalance) {
 
 TEST(Projection, DomainIsClosedOnlyWithoutAFreeNormalAndOnlyAtOneHalf) {
   Scene scene = tub();
-  EXPECT_FALSE(Problem(scene).start().projection.closed);
+  EXPECT_FALSE(Problem(scene).start().domain.projection.closed);
   scene.boundary[0].faces.push_back({"zmax", "test"});
-  EXPECT_TRUE(Problem(scene).start().projection.closed);
+  EXPECT_TRUE(Problem(scene).start().domain.projection.closed);
   scene.material.poissons_ratio = 0.499;
-  EXPECT_FALSE(Problem(scene).start().projection.closed);
+  EXPECT_FALSE(Problem(scene).start().domain.projection.closed);
 }
 
 TEST(Projection, SecondOrderInTime) {
@@ -318,7 +319,7 @@ TEST(Projection, SecondOrderInTime) {
     Simulation s = problem.start();
     march(s, 5e-4 / (1 << k), 100 << k);
     ASSERT_FALSE(s.breakdown);
-    for (int n = 0; n < s.order.nodes; ++n)
+    for (int n = 0; n < s.domain.order.nodes; ++n)
       if (problem.mesh.X[n] == Vec3{0.5, 0.5, 6}) tip[k] = {U_of(s, n)[7], U_of(s, n)[11], U_of(s, n)[15]};
   }
   const auto distance = [](const Vec3& p, const Vec3& q) { return std::hypot(p[0] - q[0], p[1] - q[1], p[2] - q[2]); };
@@ -334,13 +335,13 @@ TEST(Projection, AStressOfThePressureIsSphericalAndTheFieldSaysSo) {
     Simulation s = problem.start();
     march(s, 30);
     ASSERT_FALSE(s.breakdown);
-    for (int n = 0; n < s.order.nodes; ++n) {
+    for (int n = 0; n < s.domain.order.nodes; ++n) {
       double pressure = 0;
       field_at(s, "pressure", n, &pressure);
       EXPECT_NEAR(pressure, -U_of(s, n)[3], 1e-7 * 17e6);
     }
     const Energies e = energies(s);
-    EXPECT_LE(e.kinetic + e.strain, s.ledger.initial_energy * (1 + 1e-6));
+    EXPECT_LE(e.kinetic + e.strain, s.books.initial_energy * (1 + 1e-6));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "bench/naive_loop.hpp"
+#include "engine/current_areas.hpp"
 #include "engine/parts.hpp"
 
 namespace nanson {
@@ -64,8 +65,8 @@ void shake(Simulation& s) {
   std::mt19937_64 random(7);
   const auto uniform = [&](double size) { return size * (static_cast<double>(random() >> 11) * 0x1p-52 - 1); };
   State& u = s.state;
-  for (int n = 0; n < s.order.nodes; ++n) {
-    const auto r = static_cast<std::size_t>(s.order.row_of[static_cast<std::size_t>(n)]);
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
+    const auto r = static_cast<std::size_t>(s.domain.order.row_of[static_cast<std::size_t>(n)]);
     double* U = &u.U[0][row::U * r];
     for (int i = 0; i < 3; ++i) U[i] = uniform(5.0);
     U[3] = 1 + uniform(0.1);
@@ -74,28 +75,29 @@ void shake(Simulation& s) {
     for (int m = 0; m < 9 && !u.H[0].empty(); ++m) u.H[0][row::H * r + 4 * (m / 3) + m % 3] += uniform(0.1);
   }
   Rows rows{};
-  rows.X = u.X.data();
+  rows.X = s.domain.X.data();
   rows.U_new = u.U[0].data();
   rows.H_new = u.H[0].data();
   rows.W_new = u.W[u.now].data();
   rows.PH_new = u.PH[u.now].data();
-  for (std::size_t p = 0; p < s.order.parts.size(); ++p)
-    s.reports[p] = s.functions.stress(s.order.parts[p], rows, s.coefficients, u.step_length.data());
+  for (std::size_t p = 0; p < s.domain.order.parts.size(); ++p)
+    s.state.reports[p] = s.domain.functions.stress(s.domain.order.parts[p], rows, s.domain.coefficients,
+                                                   s.domain.step_length.data());
 }
 
 /// Power of the stabilisation over all parts, after the gradients of the present state.
 double dissipation_of(Simulation& s) {
-  const Rows rows = stage_rows(s.state, 0, 0);
-  const PartFunctions functions = find_part_functions(s.scene->physics, s.scene->material, Materials::one, true);
+  const Rows rows = stage_rows(s.domain, s.state, 0, 0);
+  const PartFunctions functions = find_part_functions(s.domain.scene->physics, s.domain.scene->material, Materials::one,
+                                                      true);
   double power = 0;
-  for (const Part& p : s.order.parts)
+  for (const Part& p : s.domain.order.parts)
     if (!s.state.G.empty())
-      functions.gradient(p, s.order.edges(), s.order.corners(), s.order.lists(), rows, s.coefficients);
+      functions.gradient(p, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows,
+                         s.domain.coefficients);
   find_current_areas(s, rows.U_stage);
-  Rows with_areas = rows;
-  with_areas.dJ = s.current.dJ.data();
-  for (const Part& p : s.order.parts)
-    power += functions.edge_flux(p, flux_edges(s), flux_corners(s), s.order.lists(), with_areas, s.coefficients,
+  for (const Part& p : s.domain.order.parts)
+    power += functions.edge_flux(p, flux_edges(s), flux_corners(s), s.domain.order.lists(), rows, s.domain.coefficients,
                                  scratch_of(s, 0));
   return power;
 }
@@ -103,15 +105,15 @@ double dissipation_of(Simulation& s) {
 /// Largest relative difference after some steps from a random state.
 double difference_after(const Scene& scene, const Mesh& mesh, int steps, int threads, std::size_t least_parts) {
   Simulation fast = make_simulation(scene, mesh, threads);
-  EXPECT_GE(fast.order.parts.size(), least_parts);
+  EXPECT_GE(fast.domain.order.parts.size(), least_parts);
   shake(fast);
   NaiveLoop naive = make_naive_loop(fast);
   if (scene.physics.stabilisation == Stabilisation::upwind) {
     EXPECT_NEAR(dissipation_of(fast) / naive_dissipation(naive), 1, 1e-12);
   }
-  fast.dt = 0.5 * allowed_step(fast);
+  fast.state.dt = 0.5 * allowed_step(fast);
   for (int i = 0; i < steps; ++i) {
-    naive_advance(naive, fast.dt);
+    naive_advance(naive, fast.state.dt);
     advance(fast);
   }
   EXPECT_FALSE(fast.breakdown.has_value());

@@ -20,8 +20,8 @@ std::vector<int> nodes_of(const Mesh& mesh, const std::string& patch) {
 }
 
 const Constraint* constraint_of(const Simulation& s, int node) {
-  for (const Constraint& h : s.boundary.constraints)
-    if (s.order.node_of[h.node] == node) return &h;
+  for (const Constraint& h : s.domain.boundary.constraints)
+    if (s.domain.order.node_of[h.node] == node) return &h;
   return nullptr;
 }
 
@@ -64,14 +64,14 @@ TEST(PrescribedVelocity, IsExactAtEveryStepForEveryTimeFunction) {
       observer.on_step = [&](const Simulation&) {
         for (int n : driven) {
           const double* v = U_of(s, n);
-          worst = std::max(
-              {worst, std::abs(v[0] - 4 * value_at(f, s.t)) / 9, std::abs(v[2] + 9 * value_at(f, s.t)) / 9});
+          worst = std::max({worst, std::abs(v[0] - 4 * value_at(f, s.state.t)) / 9,
+                            std::abs(v[2] + 9 * value_at(f, s.state.t)) / 9});
           sideways = std::max(sideways, std::abs(v[1]));
         }
       };
       std::string reason;
       EXPECT_EQ(run(s, observer, reason), "done") << word(f.kind);
-      EXPECT_GT(s.step, 60);
+      EXPECT_GT(s.state.step, 60);
       EXPECT_GT(sideways, 1) << "the free component must move";
     }
   RecordProperty("worst", fmt::format("{:.3g}", worst));
@@ -92,7 +92,7 @@ TEST(PrescribedVelocity, PositionOfARampIsExact) {
     Simulation s = problem.start();
     march(s, 50);
     for (int n : nodes_of(problem.mesh, "zmax"))
-      EXPECT_NEAR(U_of(s, n)[15], 2 + 5 * s.t * s.t, 1e-14) << word(integrator);
+      EXPECT_NEAR(U_of(s, n)[15], 2 + 5 * s.state.t * s.state.t, 1e-14) << word(integrator);
   }
 }
 
@@ -154,9 +154,9 @@ TEST(Supports, EnergyLostAtTheStartIsBooked) {
   const Problem problem(scene);
   Simulation s = problem.start();
   double held_mass = 0;
-  for (int n : nodes_of(problem.mesh, "zmin")) held_mass += 1100 * s.volume[n];
-  EXPECT_NEAR(s.ledger.lost_at_start, 0.5 * held_mass * 169, 1e-9 * s.ledger.lost_at_start);
-  EXPECT_NEAR(s.ledger.initial_energy + s.ledger.lost_at_start, 0.5 * 2200 * 169, 1e-9 * s.ledger.initial_energy);
+  for (int n : nodes_of(problem.mesh, "zmin")) held_mass += 1100 * s.domain.volume[n];
+  EXPECT_NEAR(s.books.lost_at_start, 0.5 * held_mass * 169, 1e-9 * s.books.lost_at_start);
+  EXPECT_NEAR(s.books.initial_energy + s.books.lost_at_start, 0.5 * 2200 * 169, 1e-9 * s.books.initial_energy);
 }
 
 /// A quarter of a tube: the box [1, 2] x [0, 1] x [0, 1] bent around z, x the radius, y the quarter turn.
@@ -196,7 +196,7 @@ TEST(Roller, SlidesAroundACurvedFace) {
   p.scene.initial.omega = {0, 0, 2};
   p.scene.initial.centre = Vec3{};
   Simulation s = p.start();
-  EXPECT_LT(s.ledger.lost_at_start, 2e-3 * s.ledger.initial_energy);
+  EXPECT_LT(s.books.lost_at_start, 2e-3 * s.books.initial_energy);
   EXPECT_EQ(run_quietly(s), "done");
   double slowest = 1e300, fastest = 0;
   for (const char* face : {"xmin", "xmax"})
@@ -218,7 +218,7 @@ TEST(Roller, EdgesOfTwoPatchesHoldTwoDirectionsAndCornersThree) {
                       condition({"zmin"}, BoundaryKind::symmetric)};
   Simulation s = p.start();
   int held[4] = {};
-  for (int n = 0; n < s.order.nodes; ++n) {
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
     const Vec3& X = p.mesh.X[n];
     const int expected = (std::hypot(X[0], X[1]) < 1 + 1e-9) + (std::abs(X[1]) < 1e-9) + (std::abs(X[2]) < 1e-9);
     const Constraint* h = constraint_of(s, n);

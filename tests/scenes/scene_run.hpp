@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/monitor.hpp"
+#include "engine/solver.hpp"
 #include "engine/summarise.hpp"
 #include "io/scene/load.hpp"
 
@@ -46,7 +47,7 @@ inline SceneRun run_config(const std::string& scene, const std::vector<std::stri
     out.history.push_back(history_row(s, probes));
     const Energies e = energies(s);
     out.largest_energy = std::max(out.largest_energy,
-                                  (e.kinetic + e.strain - s.ledger.external_work) / s.ledger.initial_energy);
+                                  (e.kinetic + e.strain - s.books.external_work) / s.books.initial_energy);
   };
   std::string reason;
   const std::string status = run(s, observer, reason);

@@ -17,17 +17,17 @@ struct Profile {
 };
 
 Profile profile_of(const Simulation& s) {
-  const MeshSpec& m = s.scene->mesh;
+  const MeshSpec& m = s.domain.scene->mesh;
   const int cells = m.cells[2];
   const std::size_t points = static_cast<std::size_t>(cells) + 1;
   Profile out;
-  out.end = s.t;
+  out.end = s.state.t;
   out.r.resize(points);
   out.pressure.assign(points, 0);
   out.sigma_rr.assign(points, 0);
   const double share = 1.0 / ((m.cells[0] + 1) * (m.cells[1] + 1));
-  for (int n = 0; n < s.order.nodes; ++n) {
-    const Vec3& X = s.mesh->X[static_cast<std::size_t>(n)];
+  for (int n = 0; n < s.domain.order.nodes; ++n) {
+    const Vec3& X = s.domain.mesh->X[static_cast<std::size_t>(n)];
     const double r = std::hypot(X[0], X[1], X[2]);
     const auto k = static_cast<std::size_t>(std::lround((r - m.inner) / (m.outer - m.inner) * cells));
     double p, P[9];
@@ -39,8 +39,8 @@ Profile profile_of(const Simulation& s) {
   }
   const Blake exact;
   for (const double r : out.r) {
-    out.exact_pressure.push_back(exact.pressure(r, s.t));
-    out.exact_sigma_rr.push_back(exact.sigma_rr(r, s.t));
+    out.exact_pressure.push_back(exact.pressure(r, s.state.t));
+    out.exact_sigma_rr.push_back(exact.sigma_rr(r, s.state.t));
   }
   return out;
 }

@@ -15,7 +15,7 @@ struct Pressure {
 
 /// sqrt(sum W (p_b - p_a - (g_a + g_b)/2 . D)^2 / sum W (p_b - p_a)^2) over the edges, W = |C|/|D|, g the volume-weighted mean of the tets' gradients.
 Pressure pressure_of(const Simulation& s) {
-  const Mesh& mesh = *s.mesh;
+  const Mesh& mesh = *s.domain.mesh;
   const Dual dual = make_dual(mesh);
   std::vector<double> p(mesh.X.size());
   Pressure out;

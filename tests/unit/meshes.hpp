@@ -42,12 +42,6 @@ RawMesh bent_box(std::array<int, 3> cells, Map map) {
   return raw;
 }
 
-inline Vec3 minus(const Vec3& p, const Vec3& q) { return {p[0] - q[0], p[1] - q[1], p[2] - q[2]}; }
-inline Vec3 cross3(const Vec3& p, const Vec3& q) {
-  return {p[1] * q[2] - p[2] * q[1], p[2] * q[0] - p[0] * q[2], p[0] * q[1] - p[1] * q[0]};
-}
-inline double dot3(const Vec3& p, const Vec3& q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
-inline double norm(const Vec3& p) { return std::sqrt(dot3(p, p)); }
 inline double volume(const Mesh& mesh, const std::array<int, 4>& t) {
   return tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);
 }

@@ -50,7 +50,7 @@ inline Vec3 direction(const Constraint& h, int m) { return {h.d[m][0], h.d[m][1]
 inline double free_part(const Constraint& h, Vec3 n) {
   const Vec3 whole = n;
   for (int m = 0; m < h.count; ++m) {
-    const double along = dot3(whole, direction(h, m));
+    const double along = dot(whole, direction(h, m));
     for (int k = 0; k < 3; ++k) n[k] -= along * h.d[m][k];
   }
   return norm(n);
@@ -68,7 +68,7 @@ inline Vec3 prescribed(const Constraint& h, const std::vector<double>& factor) {
 
 inline void expect_orthonormal(const Constraint& h) {
   for (int m = 0; m < h.count; ++m)
-    for (int n = 0; n <= m; ++n) EXPECT_NEAR(dot3(direction(h, m), direction(h, n)), m == n, 1e-11);
+    for (int n = 0; n <= m; ++n) EXPECT_NEAR(dot(direction(h, m), direction(h, n)), m == n, 1e-11);
 }
 
 }  // namespace nanson::test

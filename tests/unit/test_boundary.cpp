@@ -111,7 +111,7 @@ TEST(Boundary, ARollerOnACurvedFaceHoldsOneDirectionANode) {
     ASSERT_EQ(h.count, std::abs(r - 2) < 1e-12 ? 1 : 0);
     held += h.count;
     if (h.count) {
-      EXPECT_GT(std::abs(dot3(direction(h, 0), {X[0] / r, X[1] / r, 0})), std::cos(8 * degree));
+      EXPECT_GT(std::abs(dot(direction(h, 0), {X[0] / r, X[1] / r, 0})), std::cos(8 * degree));
     }
   }
   EXPECT_EQ(held, 7 * 4);

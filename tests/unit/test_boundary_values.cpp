@@ -27,7 +27,7 @@ RawMesh oblique_tet() {
 }
 
 Vec3 unit_normal(const Mesh& mesh, int p, int q, int r) {
-  Vec3 n = cross3(minus(mesh.X[q], mesh.X[p]), minus(mesh.X[r], mesh.X[p]));
+  Vec3 n = cross((mesh.X[q] - mesh.X[p]), (mesh.X[r] - mesh.X[p]));
   const double size = norm(n);
   for (double& x : n) x /= size;
   return n;
@@ -64,7 +64,7 @@ TEST(BoundaryVelocity, ReproducesItsComponentsOnObliqueDirectionsInEveryOrder) {
     const Vec3 v = prescribed(h, factor), n = unit_normal(s.mesh, 0, 1, 3);
     EXPECT_NEAR(v[0], 2 * 0.7, 1e-14);
     EXPECT_NEAR(v[1], -3 * 1.9, 1e-14);
-    EXPECT_NEAR(dot3(v, n), 0, 1e-14);
+    EXPECT_NEAR(dot(v, n), 0, 1e-14);
   } while (std::next_permutation(order.begin(), order.end()));
 }
 
@@ -75,12 +75,12 @@ TEST(BoundaryVelocity, ReproducesItsComponentBetweenTwoRollers) {
   ASSERT_EQ(h.count, 3);
   const Vec3 v = prescribed(h, {99, 2});
   EXPECT_NEAR(v[2], 3, 1e-13);
-  EXPECT_NEAR(dot3(v, unit_normal(s.mesh, 0, 1, 2)), 0, 1e-14);
-  EXPECT_NEAR(dot3(v, unit_normal(s.mesh, 0, 2, 3)), 0, 1e-14);
+  EXPECT_NEAR(dot(v, unit_normal(s.mesh, 0, 1, 2)), 0, 1e-14);
+  EXPECT_NEAR(dot(v, unit_normal(s.mesh, 0, 2, 3)), 0, 1e-14);
   const Vec3 two = prescribed(s.at(1), {99, 2});  // node 1 lies on a and b only
   EXPECT_EQ(s.at(1).count, 2);
   EXPECT_NEAR(two[2], 3, 1e-13);
-  EXPECT_NEAR(dot3(two, unit_normal(s.mesh, 0, 1, 2)), 0, 1e-14);
+  EXPECT_NEAR(dot(two, unit_normal(s.mesh, 0, 1, 2)), 0, 1e-14);
 }
 
 TEST(BoundaryVelocity, ThreeConditionsOnOneNodeKeepTheirOwnFactors) {

@@ -29,8 +29,8 @@ Vec3 mean(std::initializer_list<Vec3> points) {
 
 /// Area vector of a triangle, turned to point from a to b.
 Vec3 facing(const Vec3& p, const Vec3& q, const Vec3& r, const Vec3& D) {
-  Vec3 A = cross3(minus(q, p), minus(r, p));
-  const double half = dot3(A, D) < 0 ? -0.5 : 0.5;
+  Vec3 A = cross((q - p), (r - p));
+  const double half = dot(A, D) < 0 ? -0.5 : 0.5;
   for (double& x : A) x *= half;
   return A;
 }
@@ -46,7 +46,7 @@ std::map<std::pair<int, int>, Vec3> areas_by_triangles(const Mesh& mesh) {
                    centre = mean({mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]});
         for (int u = 0; u < 4; ++u) {
           if (u == v || u == w) continue;
-          const Vec3 A = facing(middle, mean({a, b, mesh.X[t[u]]}), centre, minus(b, a));
+          const Vec3 A = facing(middle, mean({a, b, mesh.X[t[u]]}), centre, (b - a));
           for (int k = 0; k < 3; ++k) areas[{t[v], t[w]}][k] += A[k];
         }
       }
@@ -84,7 +84,7 @@ TEST_P(DualOfABox, HasEveryEdgeOnceSorted) {
 
 TEST_P(DualOfABox, EdgeAreasAreThoseOfTheirTriangles) {
   const auto areas = areas_by_triangles(mesh);
-  for (const DualEdge& e : dual.edges) EXPECT_LE(norm(minus(e.C, areas.at({e.a, e.b}))), 1e-14 * norm(e.C));
+  for (const DualEdge& e : dual.edges) EXPECT_LE(norm(e.C - areas.at({e.a, e.b})), 1e-14 * norm(e.C));
 }
 
 TEST_P(DualOfABox, AreasCloseEveryCell) {
@@ -112,7 +112,7 @@ TEST_P(DualOfABox, AreaTimesEdgeIsHalfTheVolumeAroundTheEdge) {
       for (const int b : t)
         if (a < b) around[{a, b}] += volume(mesh, t);
   for (const DualEdge& e : dual.edges)
-    EXPECT_NEAR(dot3(e.C, minus(mesh.X[e.b], mesh.X[e.a])), 0.5 * around[std::pair(e.a, e.b)], 1e-15);
+    EXPECT_NEAR(dot(e.C, (mesh.X[e.b] - mesh.X[e.a])), 0.5 * around[std::pair(e.a, e.b)], 1e-15);
 }
 
 TEST_P(DualOfABox, CornersAreThirdsOfTheirFacesAndPointOutward) {
@@ -121,7 +121,7 @@ TEST_P(DualOfABox, CornersAreThirdsOfTheirFacesAndPointOutward) {
   for (std::size_t k = 0; k < dual.corners.size(); ++k) {
     const DualCorner& c = dual.corners[k];
     EXPECT_LE(dual.corners[k == 0 ? 0 : k - 1].a, c.a);
-    const Vec3 A = cross3(minus(mesh.X[c.b], mesh.X[c.a]), minus(mesh.X[c.c], mesh.X[c.a]));
+    const Vec3 A = cross((mesh.X[c.b] - mesh.X[c.a]), (mesh.X[c.c] - mesh.X[c.a]));
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(c.C[i], A[i] / 6, 1e-16);
     const int patch = mesh.faces[c.face].patch, axis = patch / 2;  // xmin xmax ymin ymax zmin zmax
     EXPECT_NEAR(c.C[axis], (patch % 2 ? 1 : -1) * norm(c.C), 1e-15);

@@ -177,8 +177,8 @@ TEST(PlaneWave, StartsAtTheMiddleOfTheMeshAndTravelsWithThePressureSpeed) {
     EXPECT_EQ(at(s, 0).v, Vec3{});
     EXPECT_EQ(at(s, 0).F[0][0], 1);
   }
-  EXPECT_GT(dot3(at(0.2, 0).v, n), 0);  // the front half moves on, the rear half comes back
-  EXPECT_LT(dot3(at(-0.2, 0).v, n), 0);
+  EXPECT_GT(dot(at(0.2, 0).v, n), 0);  // the front half moves on, the rear half comes back
+  EXPECT_LT(dot(at(-0.2, 0).v, n), 0);
 }
 
 TEST(InitialState, RestAndUniformVelocityAreUndeformed) {

@@ -167,7 +167,7 @@ TEST(Order, CornersStandWithTheirOwner) {
       found.insert({o.node_of[r], o.node_of[o.corner_b[g]], o.node_of[o.corner_c[g]], o.corner_face[g]});
       const Vec3 C{o.corner_C[0][g], o.corner_C[1][g], o.corner_C[2][g]};
       const auto& n = m.mesh.faces[o.corner_face[g]].nodes;
-      const Vec3 A = cross3(minus(m.mesh.X[n[1]], m.mesh.X[n[0]]), minus(m.mesh.X[n[2]], m.mesh.X[n[0]]));
+      const Vec3 A = cross((m.mesh.X[n[1]] - m.mesh.X[n[0]]), (m.mesh.X[n[2]] - m.mesh.X[n[0]]));
       for (int k = 0; k < 3; ++k) EXPECT_NEAR(C[k], A[k] / 6, 1e-17);
       EXPECT_EQ(o.corner_load[g], -1);
     }

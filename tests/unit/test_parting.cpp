@@ -81,8 +81,11 @@ TEST(Parting, AddsTheSameToAPlasticLaw) {
     rows.X = X.data();
     rows.U_new = U.data();
     rows.H_new = H.data();
+    rows.U_stage = U.data();
+    rows.H_stage = H.data();
     rows.W_new = W.data();
     rows.PH_new = PH.data();
+    rows.plastic_new = plastic.data();
     rows.plastic = plastic.data();
     Coefficients k;
     k.material = constants_of(spec);

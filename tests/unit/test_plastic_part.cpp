@@ -41,8 +41,10 @@ struct EightNodes {
     k.rho_cs = m.density * k.material.cs;
     rows.X = X.data();
     rows.U_new = U.data();
+    rows.U_stage = U.data();
     rows.W_new = W.data();
     rows.PH_new = PH.data();
+    rows.plastic_new = plastic.data();
     rows.plastic = plastic.data();
     part.node_end = 8;
   }

@@ -211,7 +211,7 @@ TEST(SceneMaterials, PhysicalVolumesOfGmshHaveTheirOwnMaterial) {
   ASSERT_TRUE(errors.empty()) << joined(errors);
   EXPECT_EQ(check_names(r.scene, mesh), std::vector<std::string>{});
   const Simulation s = make_simulation(r.scene, mesh, 1);
-  EXPECT_NEAR(s.ledger.mass, 1000 * 1 + 3000 * 2, 1e-9);
+  EXPECT_NEAR(s.books.mass, 1000 * 1 + 3000 * 2, 1e-9);
 }
 
 }  // namespace
