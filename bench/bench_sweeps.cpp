@@ -73,9 +73,9 @@ struct Bed {
     scene.physics = p;
     scene.material = m;
     functions = find_part_functions(p, m);
-    audited = find_part_functions(p, m, Materials::one, true);
+    audited = find_part_functions(p, m, true);
     k.material = constants_of(m);
-    k.deformed_metric = p.upwind_metric == UpwindMetric::deformed;
+    k.edge = edge_choices(p);
     k.sweeps_J = p.stabilisation == Stabilisation::jst;
   }
 
@@ -104,8 +104,11 @@ struct Bed {
     });
   }
   double flux(const Part& p, Scratch scratch, bool audits = false) {
+    Coefficients of_loop = k;
+    of_loop.edge.audits = audits;
     return (audits ? audited : functions)
-        .edge_flux(p, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows(), k, scratch);
+        .edge_flux(p, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows(), of_loop,
+                   scratch);
   }
   void update(const Part& p, Scratch scratch, double dt) {
     functions.accumulate_update(p, s.domain.order.edges(), s.domain.order.lists(), rows(), coefficients(dt),
@@ -127,8 +130,7 @@ struct Bed {
     over_parts([&](const Part& p, Scratch scratch) { flux(p, scratch), update(p, scratch, dt), stress(p); });
     start();
     NaiveLoop naive = make_naive_loop(s);
-    naive.material = k.material;
-    naive_material(naive, naive.now, naive.H_now);
+    naive_material(naive, naive.now, naive.H_now, false);
     const double of_power = scene.physics.stabilisation == Stabilisation::upwind
                                 ? std::abs(dissipation() / naive_dissipation(naive) - 1)
                                 : 0.0;

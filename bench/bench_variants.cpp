@@ -21,7 +21,8 @@ namespace nanson {
 namespace {
 
 constexpr auto linear = Reconstruction::linear;
-constexpr auto none = EdgeCorrection::none;
+constexpr auto none = FluxCorrection::none;
+constexpr auto scalar = PressureJump::scalar;
 
 /// Edges once each, colour by colour.
 struct Colours {
@@ -54,7 +55,7 @@ Colours colour(const Order& o) {
     }
     if (!edges.empty()) out.begin.push_back(static_cast<int>(out.a.size()));
   }
-  const std::size_t padded = out.a.size() + edge_padding;
+  const std::size_t padded = out.a.size() + ahead::padding;
   out.a.resize(padded);
   out.b.resize(padded);
   for (auto& C : out.C) C.resize(padded);
@@ -88,9 +89,9 @@ Order both_ways(const Order& o) {
   }
   out.out[o.rows] = static_cast<int>(out.a.size());
   out.in[o.rows] = 0;
-  out.a.resize(out.a.size() + edge_padding);
-  out.b.resize(out.b.size() + edge_padding);
-  for (auto& C : out.C) C.resize(C.size() + edge_padding);
+  out.a.resize(out.a.size() + ahead::padding);
+  out.b.resize(out.b.size() + ahead::padding);
+  for (auto& C : out.C) C.resize(C.size() + ahead::padding);
   return out;
 }
 
@@ -120,8 +121,8 @@ struct Bed {
   }
   const Part& part(int p) const { return s.domain.order.parts[static_cast<std::size_t>(p)]; }
   void flux(const Part& p, const Order& o, const Scratch& scratch) {
-    edge_flux_part<linear, none, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, false>(
-        p, o.edges(), o.corners(), o.lists(), rows, k, scratch);
+    edge_flux_part<linear, none, scalar, false, Areas::undeformed>(p, o.edges(), o.corners(), o.lists(), rows, k,
+                                                                   scratch);
   }
   void accumulate(const Part& p, const Order& o, const Scratch& scratch) {
     accumulate_update_part<Formulation::pFJ, GradientCorrection::none>(
@@ -146,12 +147,11 @@ void each_flux(const Bed& bed, const EdgeArrays& edges, int begin, int end, Use 
   alignas(64) double flux[4 * edge_block];
   for (int from = begin; from < end; from += edge_block) {
     const int count = std::min(end - from, edge_block);
-    gather_edges<linear, none, false, PressureJump::scalar, EntropyFix::none, Areas::undeformed>(
-        from, from + count, edges, bed.rows, bed.k.theta, block, flux);
+    gather_edges<linear, none, scalar, false, Areas::undeformed>(from, from + count, edges, bed.rows, bed.k.theta,
+                                                                 block, flux);
     for (int at = 0; at < count; at += 8)
-      finish_edges<none, false, true, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none,
-                   Areas::undeformed>(block, at, edge_sizes(edges, from + at), bed.k.rho_cp, bed.k.rho_cs, nullptr,
-                                      nullptr, flux + 4 * at);
+      finish_edges<4, scalar, false, Areas::undeformed>(block, at, edges, from + at, bed.rows, bed.k, flux + 4 * at,
+                                                        nullptr);
     for (int at = 0; at < count; ++at) use(from + at, load4(flux + 4 * at));
   }
 }
@@ -165,9 +165,10 @@ void finish_part(Bed& bed, const Part& p, const Scratch& scratch) {
   for (int n = p.node_begin; n < p.node_end; ++n)
     for (int g = lists.corner[n]; g < lists.corner[n + 1]; ++g)
       add_row(scratch.force + 4 * (n - p.node_begin), load4(scratch.corner + 4 * (g - p.corner_begin)));
-  constrain<Materials::one>(p, bed.rows, bed.k, bed.s.domain.boundary.constraints.data(), bed.s.state.reactions.data(),
-                            scratch);
-  update<Formulation::pFJ, GradientCorrection::none, Areas::undeformed, Materials::one>(p, bed.rows, bed.k, scratch);
+  constrain(p, bed.rows, bed.k, OneDensity{bed.k.material.rho}, bed.s.domain.boundary.constraints.data(),
+            bed.s.state.reactions.data(), scratch);
+  update<Formulation::pFJ, GradientCorrection::none, Areas::undeformed>(p, bed.rows, bed.k,
+                                                                        OneDensity{bed.k.material.rho}, scratch);
 }
 
 void part_buffer(Bed& bed) {

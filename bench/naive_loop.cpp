@@ -139,7 +139,7 @@ NANSON_INLINE void reconstruct(const NaiveLoop& n, const NaiveEdge& e, Choice ch
     for (int k = 0; k < count; ++k) jump[k] -= 0.5 * (dot(n.G[e.a][k].data(), D) + dot(n.G[e.b][k].data(), D));
 }
 
-/// c . (P+ - P-) C (eq. 36b).
+/// c . (P+ - P-) C (eq. 36b), with the limiter of Sigma_J.
 template <class Choice>
 double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice, const double (&c)[3],
                            const double (&D)[3]) {
@@ -147,7 +147,9 @@ double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice
   for (int i = 0; i < 3; ++i)
     for (int I = 0; I < 3; ++I) {
       double dP = n.stress[e.b].P[i][I] - n.stress[e.a].P[i][I];
-      if (choice.linear()) dP -= 0.5 * (dot(n.GP[e.a][3 * i + I].data(), D) + dot(n.GP[e.b][3 * i + I].data(), D));
+      const double phi_a = choice.limited() ? n.L[e.a][3] : 1, phi_b = choice.limited() ? n.L[e.b][3] : 1;
+      if (choice.linear())
+        dP -= 0.5 * (phi_a * dot(n.GP[e.a][3 * i + I].data(), D) + phi_b * dot(n.GP[e.b][3 * i + I].data(), D));
       across += c[i] * dP * e.C[I];
     }
   return across;
@@ -159,13 +161,13 @@ double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice
 template <class Choice>
 NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const NaiveEdge& e, Choice choice,
                                                   const double (&c)[3], const double (&D)[3]) {
-  const double rho = n.material.rho, cp = n.material.cp, cs = n.material.cs;
+  const double rho_cp = 0.5 * (n.rho_cp[e.a] + n.rho_cp[e.b]), rho_cs = 0.5 * (n.rho_cs[e.a] + n.rho_cs[e.b]);
   double plain[4], jump[4];
   for (int k = 0; k < 4; ++k) jump[k] = plain[k] = n.W[e.b][k] - n.W[e.a][k];
   reconstruct(n, e, choice, D, jump);
   const double cc = dot(c, c), stretch = choice.deformed() ? std::max(1.0, std::sqrt(cc) / e.size) : 1.0,
                normal = dot(c, jump) / cc;
-  double by_p = cp * stretch, by_s = cs;
+  double by_p = rho_cp * stretch, by_s = rho_cs;
   if (choice.fixed()) {
     double tangential = 0;
     for (int i = 0; i < 3; ++i) tangential += (jump[i] - normal * c[i]) * plain[i];
@@ -173,19 +175,18 @@ NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const Naiv
     if (tangential < 0) by_s = 0;
   }
   std::array<double, 4> out{};
-  for (int i = 0; i < 3; ++i) out[i] = 0.5 * e.size * rho * (by_s * jump[i] + (by_p - by_s) * normal * c[i]);
+  for (int i = 0; i < 3; ++i) out[i] = 0.5 * e.size * (by_s * jump[i] + (by_p - by_s) * normal * c[i]);
   if (!choice.evolves_J()) return out;
   const double across = choice.tensor() ? traction_jump_along(n, e, choice, c, D) : cc * jump[3];
-  if (!choice.fixed() || across * plain[3] >= 0) out[3] = across / (2 * rho * cp * stretch * e.size);
+  if (!choice.fixed() || across * plain[3] >= 0) out[3] = across / (2 * rho_cp * stretch * e.size);
   return out;
 }
 
 /// {D^p, D^J} of the Jameson-Schmidt-Turkel scheme (method, section 9).
 std::array<double, 4> jst_dissipation(const NaiveLoop& n, const NaiveEdge& e, bool evolves_J) {
   std::array<double, 4> out{};
-  for (int i = 0; i < 3; ++i)
-    out[i] = -1.0 / 256 * n.material.rho * n.material.cp * e.size * (n.L[e.b][i] - n.L[e.a][i]);
-  if (evolves_J) out[3] = -1.0 / 8192 * n.material.cp * e.size * (n.L[e.b][3] - n.L[e.a][3]);
+  for (int i = 0; i < 3; ++i) out[i] = -1.0 / 256 * n.rho_cp[e.a] * e.size * (n.L[e.b][i] - n.L[e.a][i]);
+  if (evolves_J) out[3] = -1.0 / 8192 * n.laws[0].constants.cp * e.size * (n.L[e.b][3] - n.L[e.a][3]);
   return out;
 }
 
@@ -234,8 +235,9 @@ void flux_pass(NaiveLoop& n, Choice choice) {
 /// Adjoint boundary flux (P_a - (6 P_a + P_b + P_c)/8) C_gamma (method, section 3), tractions, following pressures, body force.
 void boundary_pass(NaiveLoop& n, const std::vector<NaiveNode>& U, double t) {
   const auto P = [&](int a, int i, int I) { return n.stress[a].P[i][I]; };
-  if (has_current_areas(n.scene->physics.description)) current_boundary_flux(n);
-  else if (n.scene->physics.boundary_flux == BoundaryFlux::adjoint)
+  const bool adjoint = n.scene->physics.boundary_flux == BoundaryFlux::adjoint;
+  if (adjoint && has_current_areas(n.scene->physics.description)) current_boundary_flux(n);
+  else if (adjoint)
     for (const NaiveCorner& c : n.corners)
       for (int i = 0; i < 3; ++i)
         for (int I = 0; I < 3; ++I)
@@ -254,7 +256,7 @@ void boundary_pass(NaiveLoop& n, const std::vector<NaiveNode>& U, double t) {
       for (int i = 0; i < 3; ++i) n.force[node][i] += factor * force[i];
   }
   for (std::size_t a = 0; a < n.volume.size(); ++a)
-    for (int i = 0; i < 3; ++i) n.force[a][i] += n.material.rho * n.volume[a] * n.scene->body_force[i];
+    for (int i = 0; i < 3; ++i) n.force[a][i] += n.rho[a] * n.volume[a] * n.scene->body_force[i];
 }
 
 /// Along a held direction dp/dt is rho (v(t + dt) - v(t))/dt of what is prescribed there.
@@ -268,7 +270,7 @@ void hold(NaiveLoop& n, double dt) {
     for (int m = 0; m < h.count; ++m) {
       double wanted = 0;
       for (int s = 0; s < 3; ++s) wanted += h.weight[m][s] * rate[static_cast<std::size_t>(h.source[m][s])];
-      const double change = n.material.rho * n.volume[h.node] * wanted - dot(n.force[h.node].data(), h.d[m]);
+      const double change = n.rho[h.node] * n.volume[h.node] * wanted - dot(n.force[h.node].data(), h.d[m]);
       for (int i = 0; i < 3; ++i) n.force[h.node][i] += change * h.d[m][i];
     }
 }
@@ -284,7 +286,7 @@ void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<N
   const bool evolves_J = n.scene->physics.formulation != Formulation::pF;
   for (std::size_t a = 0; a < from.size(); ++a) {
     const NaiveNode U_old = n.now[a], U = from[a];
-    const double inverse_volume = 1 / n.volume[a], inverse_mass = inverse_volume / n.material.rho;
+    const double inverse_volume = 1 / n.volume[a], inverse_mass = inverse_volume / n.rho[a];
     double G[3][3], dJ = n.force[a][3] * inverse_volume;
     for (int i = 0; i < 3; ++i)
       for (int I = 0; I < 3; ++I) {
@@ -292,7 +294,7 @@ void update_pass(NaiveLoop& n, const std::vector<NaiveNode>& from, std::vector<N
         if (!n.dG.empty()) G[i][I] += n.dG[a][i][I] * inverse_volume;
         if (evolves_J && n.dJ.empty()) dJ += n.stress[a].H[i][I] * G[i][I];
       }
-    if (!n.dJ.empty()) dJ += n.dJ[a] * inverse_volume;
+    if (evolves_J && !n.dJ.empty()) dJ += n.dJ[a] * inverse_volume;
     NaiveNode& out = to[a];
     for (int i = 0; i < 3; ++i) {
       out.v[i] = w(U_old.v[i], U.v[i], n.force[a][i] * inverse_mass);
@@ -332,7 +334,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   boundary_pass(n, from, n.t + at[number] * dt);
   hold(n, dt);
   update_pass(n, from, to, H_from, H_to, w);
-  naive_material(n, to, H_to);
+  naive_material(n, to, H_to, last);
   n.has_lagged = second && last && !n.dG.empty();
   if (n.has_lagged) add_correction(n);
 }

@@ -5,10 +5,16 @@
 #include <vector>
 
 #include "engine/solver.hpp"
+#include "kernels/materials/hencky_j2.hpp"
 
 namespace nanson {
 
 inline double dot(const double* p, const double* q) { return p[0] * q[0] + p[1] * q[1] + p[2] * q[2]; }
+
+inline double determinant_of(const double (&F)[3][3]) {
+  return F[0][0] * (F[1][1] * F[2][2] - F[1][2] * F[2][1]) - F[0][1] * (F[1][0] * F[2][2] - F[1][2] * F[2][0])
+         + F[0][2] * (F[1][0] * F[2][1] - F[1][1] * F[2][0]);
+}
 
 struct NaiveNode {
   double v[3];  // [m/s]
@@ -31,9 +37,19 @@ struct NaiveCorner {
 template <int rows, int columns>
 using Table = std::array<std::array<double, columns>, rows>;
 
+/// One of the materials: what part of every node's volume it has, and its plastic state at t^n.
+struct NaiveLaw {
+  MaterialSpec spec;
+  MaterialConstants constants;
+  std::vector<double> share;                  // [-]
+  std::vector<PlasticState<double>> plastic;  // hencky_j2
+};
+
 struct NaiveLoop {
   const Scene* scene = nullptr;
-  MaterialConstants material;
+  std::vector<NaiveLaw> laws;
+  std::vector<double> rho;                  // [kg/m^3] mean of the materials by volume
+  std::vector<double> rho_cp, rho_cs;       // [kg/(m^2 s)] likewise; an edge takes the mean of its nodes
   std::vector<int> row;                     // node -> row of the simulation that it was made from
   std::vector<Vec3> X;                      // [m]
   std::vector<double> volume, step_length;  // [m^3], [m]
@@ -69,8 +85,8 @@ struct NaiveLoop {
 /// The same state, geometry, supports and loads as a simulation before its first step.
 NaiveLoop make_naive_loop(const Simulation& s);
 
-/// Stress and what is swept, of all nodes.
-void naive_material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H);
+/// Stress and what is swept, of all nodes; `commits` keeps what flows plastically.
+void naive_material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std::vector<Table<3, 3>>& H, bool commits);
 
 /// Current areas of the positions U, and the rate of J by the motion of the dual cells; adjoint boundary flux with them.
 void current_geometry_pass(NaiveLoop& n, const std::vector<NaiveNode>& U);

@@ -65,6 +65,41 @@ void find_lambda(NaiveLoop& n) {
   }
 }
 
+/// Quarters of the tets around a node by region, and the means that follow.
+void place_materials(NaiveLoop& n, const Simulation& s) {
+  const Mesh& mesh = *s.domain.mesh;
+  const std::size_t nodes = n.row.size();
+  std::vector<std::size_t> place(mesh.X.size());
+  for (std::size_t a = 0; a < nodes; ++a) place[static_cast<std::size_t>(s.domain.order.node_of[n.row[a]])] = a;
+  std::vector<int> law_of(mesh.region_names.size(), 0);
+  for (const MaterialSpec& m : materials_of(*s.domain.scene)) {
+    for (const Named& region : m.regions)
+      for (std::size_t r = 0; r < law_of.size(); ++r)
+        if (mesh.region_names[r] == region.name) law_of[r] = static_cast<int>(n.laws.size());
+    n.laws.push_back({m, constants_of(m), std::vector<double>(nodes, 0.0), {}});
+    n.laws.back().constants.parting = s.domain.scene->physics.parting * n.laws.back().constants.mu;
+    if (m.law == Law::hencky_j2) n.laws.back().plastic.assign(nodes, PlasticState<double>{{{1, 1, 1, 0, 0, 0}}, 0});
+  }
+  const bool one = n.laws.size() == 1;
+  for (std::size_t t = 0; t < mesh.tets.size() && !one; ++t) {
+    const auto& v = mesh.tets[t];
+    const double quarter = 0.25 * tet_volume(mesh.X[v[0]], mesh.X[v[1]], mesh.X[v[2]], mesh.X[v[3]]);
+    for (const int node : v) n.laws[law_of[mesh.tet_region[t]]].share[place[node]] += quarter;
+  }
+  n.rho.assign(nodes, 0.0);
+  n.rho_cp = n.rho_cs = n.rho;
+  for (std::size_t a = 0; a < nodes; ++a) {
+    double total = 0;
+    for (const NaiveLaw& law : n.laws) total += law.share[a];
+    for (NaiveLaw& law : n.laws) {
+      law.share[a] = one ? 1.0 : law.share[a] / total;
+      n.rho[a] += law.share[a] * law.constants.rho;
+      n.rho_cp[a] += law.share[a] * law.constants.rho * law.constants.cp;
+      n.rho_cs[a] += law.share[a] * law.constants.rho * law.constants.cs;
+    }
+  }
+}
+
 void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_row) {
   for (int r = 0; r < o.rows; ++r) {
     for (std::int32_t e = o.out[r]; e < o.out[r + 1]; ++e)
@@ -86,7 +121,6 @@ void place_edges(NaiveLoop& n, const Order& o, const std::vector<int>& node_of_r
 NaiveLoop make_naive_loop(const Simulation& s) {
   NaiveLoop n;
   n.scene = s.domain.scene;
-  n.material = s.domain.coefficients.material;
   n.t = s.state.t;
   std::vector<int> node_of_row(static_cast<std::size_t>(s.domain.order.rows), -1);
   for (int r = 0; r < s.domain.order.rows; ++r) {
@@ -119,8 +153,9 @@ NaiveLoop make_naive_loop(const Simulation& s) {
       n.H_x.resize(n.row.size());
     }
   }
+  place_materials(n, s);
   copy_state(n, s);
-  naive_material(n, n.now, n.H_now);
+  naive_material(n, n.now, n.H_now, false);
   return n;
 }
 
@@ -150,9 +185,11 @@ double largest_difference(const NaiveLoop& n, const std::vector<NaiveNode>& node
       }
     }
   }
-  P.size = std::max(P.size, 0.1 * n.material.kappa);
-  if (!n.dJ.empty()) H.size = std::max(H.size, 0.1 * n.material.kappa);  // the Cauchy stress
-  if (n.lambda.empty()) swept.size = std::max(swept.size, 0.1 * n.material.kappa);
+  double kappa = 0;
+  for (const NaiveLaw& law : n.laws) kappa = std::max(kappa, law.constants.kappa);
+  P.size = std::max(P.size, 0.1 * kappa);
+  if (!n.dJ.empty()) H.size = std::max(H.size, 0.1 * kappa);  // the Cauchy stress
+  if (n.lambda.empty()) swept.size = std::max(swept.size, 0.1 * kappa);
   double worst = 0;
   for (const Field& f : {v, J, F, x, H, swept, P})
     if (f.difference > 0) worst = std::max(worst, f.difference / f.size);

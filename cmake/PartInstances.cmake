@@ -8,7 +8,8 @@ function(add_instance name header)
 endfunction()
 
 set(SWEEP "const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&, const Coefficients&")
-foreach(traits true:true:none true:false:none false:true:none false:false:none false:true:limiter false:false:limiter false:false:laplacian)
+foreach(traits true:true:none true:false:none false:true:none false:false:none true:true:limiter true:false:limiter false:true:limiter false:false:limiter
+        false:false:laplacian)
   string(REPLACE ":" ";" t ${traits})
   list(GET t 0 tensor)
   list(GET t 1 full)
@@ -16,71 +17,20 @@ foreach(traits true:true:none true:false:none false:true:none false:false:none f
   add_instance(gradient_${tensor}_${full}_${weights} gradient_part.hpp "template void gradient_part<${tensor}, ${full}, NodeWeights::${weights}>(${SWEEP})\;")
 endforeach()
 
-foreach(evolves_J true false)
-  add_instance(edge_flux_jst_${evolves_J} jst.hpp "template double edge_flux_jst_part<${evolves_J}>(${SWEEP}, const Scratch&)\;")
-endforeach()
-
-set(constant_corrections none)
-set(linear_corrections none finds_pressure finds_full takes_pressure)
-set(limited_corrections ${linear_corrections})
-foreach(metric deformed paper)
-  foreach(reconstruction constant linear limited)
-    foreach(rest false:scalar:none true:scalar:none true:tensor:none false:scalar:edge true:scalar:edge)
-      string(REPLACE ":" ";" t ${rest})
-      list(GET t 0 evolves_J)
-      list(GET t 1 jump)
-      list(GET t 2 fix)
-      if(NOT ("${jump}" STREQUAL "tensor" AND "${reconstruction}" STREQUAL "limited"))  # quoted: tensor is a variable too
-        set(tag ${evolves_J}_${jump}_${metric}_${fix})
-        set(others "")  # in one unit: fewer units build faster
-        foreach(correction ${${reconstruction}_corrections})
-          set(traits "Reconstruction::${reconstruction}, EdgeCorrection::${correction}, ${evolves_J}, PressureJump::${jump}, UpwindMetric::${metric}, EntropyFix::${fix}")
-          set(edge_flux "template double edge_flux_part<${traits}, false>(${SWEEP}, const Scratch&)\;")
-          if(correction STREQUAL none)
-            add_instance(edge_flux_${reconstruction}_${tag} edge_flux_part.hpp "${edge_flux}")
-          else()
-            string(APPEND others "${edge_flux}\n")
-          endif()
-          string(APPEND others "template double edge_flux_part<${traits}, true>(${SWEEP}, const Scratch&)\;\n")
-        endforeach()
-        add_instance(edge_flux_${reconstruction}_${tag}_others edge_flux_part.hpp "${others}")
-      endif()
-    endforeach()
+# What an edge loop loads: see edge_flux_part. The correction is made of gradients, current areas want the plain jumps.
+foreach(gathered constant:none linear:none linear:pressure linear:full limited:none limited:pressure limited:full)
+  string(REPLACE ":" ";" t ${gathered})
+  list(GET t 0 reconstruction)
+  list(GET t 1 found)
+  set(lines "")
+  foreach(rest scalar:false:undeformed scalar:true:undeformed tensor:false:undeformed tensor:true:undeformed scalar:true:current)
+    string(REPLACE ":" ";" t ${rest})
+    list(GET t 0 jump)
+    list(GET t 1 plain)
+    list(GET t 2 areas)
+    string(APPEND lines "template double edge_flux_part<Reconstruction::${reconstruction}, FluxCorrection::${found}, PressureJump::${jump}, ${plain}, Areas::${areas}>(${SWEEP}, const Scratch&)\;\n")
   endforeach()
-endforeach()
-
-foreach(reconstruction constant linear)
-  foreach(metric deformed paper)
-    foreach(audits false true)
-      add_instance(current_flux_${reconstruction}_${metric}_${audits} current_flux_part.hpp
-        "template double current_flux_part<Reconstruction::${reconstruction}, UpwindMetric::${metric}, ${audits}>(${SWEEP}, const Scratch&)\;")
-    endforeach()
-  endforeach()
-endforeach()
-add_instance(accumulate_update_current accumulate_update_part.hpp
-  "template void accumulate_update_part<Formulation::pFJ, GradientCorrection::none, Areas::current>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
-set(CAUCHY "")  # in one unit: each is a call of the stress and the same short loop
-foreach(material hencky_j2:quadratic:F neo_hookean:quadratic:F neo_hookean:barrier:F neo_hookean:quadratic:J neo_hookean:barrier:J
-        mooney_rivlin:quadratic:F mooney_rivlin:barrier:F mooney_rivlin:quadratic:J mooney_rivlin:barrier:J)
-  string(REPLACE ":" ";" triple ${material})
-  list(GET triple 0 law)
-  list(GET triple 1 volumetric)
-  list(GET triple 2 isochoric)
-  string(APPEND CAUCHY "template PartReport stress_part<Law::${law}, Volumetric::${volumetric}, Isochoric::${isochoric}, Formulation::pFJ, Areas::current>(const Part&, const Rows&, const Coefficients&, const double*)\;\n")
-endforeach()
-add_instance(cauchy_stress stress_part.hpp "${CAUCHY}")
-# Several materials: a density a node, impedances an edge.
-foreach(reconstruction constant linear)
-  foreach(evolves_J true false)
-    foreach(audits false true)
-      add_instance(edge_flux_${reconstruction}_${evolves_J}_several_${audits} edge_flux_part.hpp
-        "template double edge_flux_part<Reconstruction::${reconstruction}, EdgeCorrection::none, ${evolves_J}, PressureJump::scalar, UpwindMetric::deformed, EntropyFix::none, ${audits}, Materials::several>(${SWEEP}, const Scratch&)\;")
-    endforeach()
-  endforeach()
-endforeach()
-foreach(formulation pF pFJ)
-  add_instance(accumulate_update_${formulation}_several accumulate_update_part.hpp
-    "template void accumulate_update_part<Formulation::${formulation}, GradientCorrection::none, Areas::undeformed, Materials::several>(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&, const Constraint*, double*, const Scratch&)\;")
+  add_instance(edge_flux_${reconstruction}_${found} edge_flux_part.hpp "${lines}")
 endforeach()
 
 foreach(law neo_hookean mooney_rivlin)
@@ -105,11 +55,6 @@ foreach(formulation pF pFJ pFHJ)
       add_instance(stress_${law}_${volumetric}_${isochoric}_${formulation} stress_part.hpp
         "template PartReport stress_part<${traits}>(const Part&, const Rows&, const Coefficients&, const double*)\;"
         "template double strain_energy_part<${traits}>(const Part&, const Rows&, const Coefficients&)\;")
-    endif()
-    if(law MATCHES "hencky_j2|neo_hookean|mooney_rivlin" AND volumetric STREQUAL quadratic AND isochoric STREQUAL F AND NOT formulation STREQUAL pF)
-      add_instance(stress_${law}_${volumetric}_${isochoric}_${formulation}_parting stress_part.hpp
-        "template PartReport stress_part<${traits}, Areas::undeformed, Parting::energy>(const Part&, const Rows&, const Coefficients&, const double*)\;"
-        "template double strain_energy_part<${traits}, Parting::energy>(const Part&, const Rows&, const Coefficients&)\;")
     endif()
   endforeach()
 endforeach()

@@ -25,7 +25,7 @@ void add(double* sum, const Vec3& v) {
 void sum_moments(const Simulation& s, const Rows& rows, const double* arms, int part, const Scratch& scratch) {
   const Part& p = s.domain.order.parts[static_cast<std::size_t>(part)];
   const double o[3] = {s.state.arm_origin[0], s.state.arm_origin[1], s.state.arm_origin[2]};
-  moments_part(p, nodes_of(s.domain, p), rows.X, arms, o, scratch,
+  moments_part(p, nodes_of(s.domain, p), rows.X, s.domain.step_length.data(), arms, o, scratch,
                s.team.part_rows[static_cast<std::size_t>(part)].data());
 }
 
@@ -82,7 +82,7 @@ double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients
                centre[3] = {s.state.arm_origin[0], s.state.arm_origin[1], s.state.arm_origin[2]};
   return sum_over_parts(s, [&](int p) {
     const Part& part = s.domain.order.parts[static_cast<std::size_t>(p)];
-    return correct_part(part, nodes_of(s.domain, part), rows, k, arms, lambda, centre,
+    return correct_part(part, nodes_of(s.domain, part), rows, k, s.domain.step_length.data(), arms, lambda, centre,
                         s.domain.boundary.constraints.data(), s.state.reactions.data());
   });
 }

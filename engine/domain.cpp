@@ -27,8 +27,9 @@ Coefficients coefficients_of(const Scene& scene, const Order& order) {
   k.rho_cs = k.material.rho * k.material.cs;
   if (scene.physics.formulation == Formulation::pFp) k.rho_cp = k.rho_cs;  // the pressure waves are the projection's
   k.adjoint = scene.physics.boundary_flux == BoundaryFlux::adjoint;
+  k.current_areas = has_current_areas(scene.physics.description);
   k.sweeps_J = scene.physics.stabilisation == Stabilisation::jst;
-  k.deformed_metric = scene.physics.upwind_metric == UpwindMetric::deformed;
+  k.edge = edge_choices(scene.physics, scene.monitor.energy);
   for (int i = 0; i < 3; ++i) k.g[i] = scene.body_force[i];
   k.streams = order.nodes >= streaming_nodes;
   return k;
@@ -63,10 +64,9 @@ Domain make_domain(const Scene& scene, const Mesh& mesh, Clock& setup) {
     d.projection = make_projection_setup(scene, d.order, d.boundary, d.X, d.coefficients.material);
     if (scene.monitor.geometry != GeometryWatch::off) d.tets = make_tets(mesh, d.order, d.X);
     d.manufactured = make_manufactured(scene, mesh, d.order);
-    const Materials several = d.mixture.materials();
     const bool audits = scene.monitor.energy;
-    d.functions = find_part_functions(scene.physics, scene.material, several, audits);
-    d.lagged_functions = find_part_functions(scene.physics, scene.material, several, audits, true);
+    d.functions = find_part_functions(scene.physics, scene.material, audits);
+    d.lagged_functions = find_part_functions(scene.physics, scene.material, audits, true);
   });
   return d;
 }

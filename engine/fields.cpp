@@ -32,8 +32,8 @@ double P_at(const Simulation& s, int node, int i, int I) {
 }
 
 double plastic_strain(const Simulation& s, int node) {
-  return s.state
-      .plastic[static_cast<std::size_t>(row::plastic * s.domain.order.row_of[static_cast<std::size_t>(node)] + 3)];
+  return nanson::plastic_strain(s.domain.mixture, s.state.plastic,
+                                s.domain.order.row_of[static_cast<std::size_t>(node)]);
 }
 
 Tensor<double> F_of(const double* U) {

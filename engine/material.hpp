@@ -7,10 +7,9 @@
 
 namespace nanson {
 
-/// The hardening curve piece by piece, constant beyond the last point of a table; without a table one piece that never ends.
+/// The hardening curve piece by piece, constant beyond the last point of a table; without a table one piece that never ends. Only laws that yield read it.
 inline Hardening hardening_of(const MaterialSpec& m) {
   Hardening h;
-  if (m.law != Law::hencky_j2) return h;
   if (m.hardening.empty()) {
     h.count = 1;
     h.tau_y[0] = m.yield_stress;

@@ -22,9 +22,11 @@ std::vector<MaterialLaw> make_laws(const Scene& scene) {
   for (const MaterialSpec& m : scene.materials) {
     MaterialLaw law;
     law.constants = constants_of(m);
+    law.has_state = law_traits(m.law).has_state;
+    law.constants.parting = scene.physics.parting * law.constants.mu;
     law.rho_cp = law.constants.rho * law.constants.cp;
     law.rho_cs = law.constants.rho * law.constants.cs;
-    law.functions = find_part_functions(scene.physics, m, Materials::several);
+    law.functions = find_part_functions(scene.physics, m);
     laws.push_back(law);
   }
   return laws;
@@ -99,7 +101,7 @@ void shorten_steps(const Mixture& m, const Order& o, Aligned<double>& step_lengt
     double cp = 0;
     for (const int law : m.groups[static_cast<std::size_t>(m.group[n])])
       cp = std::max(cp, m.laws[static_cast<std::size_t>(law)].constants.cp);
-    const double kappa = mean_at(m, n, [](const MaterialLaw& l) { return l.constants.kappa; });
+    const double kappa = mean_at(m, n, [](const MaterialLaw& l) { return l.constants.kappa + l.constants.parting; });
     excess[n] = std::max({excess[n], rho_cp / (m.rho[n] * cp), kappa / (rho_cp * cp)});
   };
   for (std::size_t e = 0; e < static_cast<std::size_t>(o.out.back()); ++e) {
@@ -107,6 +109,24 @@ void shorten_steps(const Mixture& m, const Order& o, Aligned<double>& step_lengt
     visit(static_cast<std::size_t>(o.b[e]), o.rho_cp[e]);
   }
   for (std::size_t n = 0; n < excess.size(); ++n) step_length[n] /= excess[n];
+}
+
+/// Where laws with a state meet at a node, each of them keeps its states in a set of rows of its own.
+void find_states(Mixture& m, std::ptrdiff_t rows) {
+  const auto has_state = [&](int law) { return m.laws[static_cast<std::size_t>(law)].has_state; };
+  const bool meet = std::ranges::any_of(
+      m.groups, [&](const std::vector<int>& present) { return std::ranges::count_if(present, has_state) > 1; });
+  if (!meet) return;
+  m.state_sets = 0;
+  for (MaterialLaw& law : m.laws)
+    if (law.has_state) law.states = rows * m.state_sets++;
+}
+
+/// The rows that a law keeps its states in.
+Rows rows_of_law(const MaterialLaw& law, Rows rows) {
+  rows.plastic += row::plastic * law.states;
+  if (rows.plastic_new) rows.plastic_new += row::plastic * law.states;
+  return rows;
 }
 
 Coefficients of_law(Coefficients k, const MaterialLaw& law) {
@@ -183,6 +203,7 @@ Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& orde
   find_shares(m, order, nodes.volume);
   find_impedances(m, order);
   shorten_steps(m, order, step_length);
+  find_states(m, order.rows);
   return m;
 }
 
@@ -192,7 +213,7 @@ PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& ro
   const std::vector<int>& present = m.groups[static_cast<std::size_t>(run.group)];
   if (present.size() == 1) {
     const MaterialLaw& law = m.laws[static_cast<std::size_t>(present[0])];
-    return law.functions.stress(part, rows, of_law(k, law), step_length);
+    return law.functions.stress(part, rows_of_law(law, rows), of_law(k, law), step_length);
   }
   const int count = run.end - run.begin;
   double *PH = scratch, *W = PH + row::PH * count, *X = W + row::W * count;
@@ -200,7 +221,7 @@ PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& ro
   for (const int r : present) {
     const MaterialLaw& law = m.laws[static_cast<std::size_t>(r)];
     const Aligned<double>& share = m.share[static_cast<std::size_t>(r)];
-    Rows mine = rows;
+    Rows mine = rows_of_law(law, rows);
     mine.PH_new = PH - row::PH * static_cast<std::ptrdiff_t>(run.begin);
     mine.W_new = W - row::W * static_cast<std::ptrdiff_t>(run.begin);
     mine.X = rows_of_material(run, run.end, rows, share, X);
@@ -233,9 +254,22 @@ double mixed_energy(const Mixture& m, const MaterialRun& run, const Rows& rows, 
   double sum = 0;
   for (const int r : present) {
     const MaterialLaw& law = m.laws[static_cast<std::size_t>(r)];
-    Rows mine = rows;
+    Rows mine = rows_of_law(law, rows);
     if (present.size() > 1) mine.X = rows_of_material(run, end, rows, m.share[static_cast<std::size_t>(r)], X.data());
     sum += law.functions.strain_energy(part_of(run.begin, end), mine, of_law(k, law));
+  }
+  return sum;
+}
+
+double plastic_strain(const Mixture& m, const Aligned<double>& plastic, int n) {
+  const auto of = [&](std::ptrdiff_t states) {
+    return plastic[static_cast<std::size_t>(row::plastic * (states + n) + 3)];
+  };
+  if (m.empty()) return of(0);
+  double sum = 0;
+  for (const int r : m.groups[static_cast<std::size_t>(m.group[static_cast<std::size_t>(n)])]) {
+    const MaterialLaw& law = m.laws[static_cast<std::size_t>(r)];
+    if (law.has_state) sum += m.share[static_cast<std::size_t>(r)][static_cast<std::size_t>(n)] * of(law.states);
   }
   return sum;
 }

@@ -32,6 +32,8 @@ struct MaterialLaw {
   MaterialConstants constants;
   double rho_cp = 0, rho_cs = 0;  // [kg/(m^2 s)]
   PartFunctions functions;        // stress, strain_energy
+  bool has_state = false;
+  std::ptrdiff_t states = 0;  // where the rows of its plastic states begin: laws that share nodes have rows apart
 };
 
 /// Empty with one material.
@@ -42,10 +44,10 @@ struct Mixture {
   std::vector<int> first_run;          // of every part, one more entry than parts
   std::vector<int> group;              // a row
   std::vector<Aligned<double>> share;  // [-] a law: Omega_a,r / Omega_a a row
+  int state_sets = 1;                  // of plastic states: as many as laws have one, where these meet at a node
   Aligned<double> rho;                 // [kg/m^3] a row: sum_r Omega_a,r rho_r / Omega_a, so that the mass is exact
 
   bool empty() const { return laws.empty(); }
-  Materials materials() const { return empty() ? Materials::one : Materials::several; }
 };
 
 /// Also the impedances of the edges of `order`, and `step_length` of nodes whose edges stabilise faster than their own waves run.
@@ -59,6 +61,9 @@ constexpr std::size_t mixture_scratch(int rows) {
 /// Stress sweep over rows of one group: on an interface P, H and Sigma_J are the volume-weighted means of the laws, each at the node's F, H, J.
 PartReport mixed_stress(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k,
                         const double* step_length, double* scratch);
+
+/// Mean of the laws' equivalent plastic strains at a row by volume [-]; of one material its own.
+double plastic_strain(const Mixture& mixture, const Aligned<double>& plastic, int row);
 
 /// Sum of Omega_a,r psi_r(F, H, J) [J].
 double mixed_energy(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k);

@@ -15,13 +15,14 @@ void add_part(const Simulation& s, const PartFunctions& functions, const Current
               const Part& part, const Scratch& scratch, double* out) {
   const EdgeArrays arrays = flux_edges(s.domain, current);
   const CornerArrays corners = flux_corners(s.domain, current);
+  Coefficients k = s.domain.coefficients;
+  k.edge.audits = true;
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
     if (arrays.b[e] < arrays.a[e]) continue;  // the other part's copy counts
     Part one{};
     one.edge_begin = e;
     one.edge_end = e + 1;
-    const double power = functions.edge_flux(one, arrays, corners, s.domain.order.lists(), rows, s.domain.coefficients,
-                                             scratch);
+    const double power = functions.edge_flux(one, arrays, corners, s.domain.order.lists(), rows, k, scratch);
     out[total] += power;
     out[negative] += power < 0;
     out[edges] += 1;
@@ -35,7 +36,7 @@ EntropyProduction entropy_production(const Simulation& s) {
   State work = s.state;  // gradients and areas of the present state, as the next stage finds them
   const Rows rows = stage_rows(s.domain, work, 0, 0);
   const PartFunctions functions = find_part_functions(
-      s.domain.scene->physics, s.domain.scene->material, s.domain.mixture.materials(), true,
+      s.domain.scene->physics, s.domain.scene->material, true,
       s.state.has_lagged_correction);  // a correction that the next stage takes stays as it is
   find_current_areas(s, rows.U_stage, work.current);
   if (s.domain.scene->physics.reconstruction != Reconstruction::constant) {

@@ -177,9 +177,9 @@ void place_edges(Order& o, const Dual& dual) {
   std::vector<int> next(o.out.begin(), o.out.end() - 1);
   visit([&](int a, int b, int e, bool flipped) { halves[next[a]++] = {b, e, flipped}; });
   const std::size_t count = halves.size();
-  o.a.assign(count + edge_padding, 0);
-  o.b.assign(count + edge_padding, 0);
-  for (auto& C : o.C) C.assign(count + edge_padding, 0);
+  o.a.assign(count + ahead::padding, 0);
+  o.b.assign(count + ahead::padding, 0);
+  for (auto& C : o.C) C.assign(count + ahead::padding, 0);
   o.in.assign(static_cast<std::size_t>(o.rows) + 1, 0);
   for (int a = 0; a < o.rows; ++a) {
     std::sort(halves.begin() + o.out[a], halves.begin() + o.out[a + 1],

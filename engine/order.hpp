@@ -16,9 +16,6 @@ constexpr int part_size(int nodes) { return nodes < 32768 ? 1024 : 2048; }
 /// Meshes from here on write {v, Sigma_J} and {P|H} past the caches. Measured (cube, one thread): 12 % less time at 35,937 nodes, 5 % at 4,913, none at 2,197, 5 % more at 729.
 inline constexpr int streaming_nodes = 4096;
 
-/// Edges that the arrays hold beyond the last one: prefetching reads ahead.
-inline constexpr std::size_t edge_padding = 512;
-
 struct Order {
   int nodes = 0;              // of the mesh
   int rows = 0;               // nodes and padding

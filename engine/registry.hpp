@@ -18,15 +18,16 @@ struct PartFunctions {
       false;  // the gradient sweep writes the corrected stress into Rows::PH_new: the edges read it there (full flux correction)
 };
 
-/// The combinations of physics that are compiled, in a sentence.
-extern const char* const what_is_built;
+/// With several materials: the sweeps for all of them, and stress and energy of this one. `audits`: the edge loops have the plain jumps that an audit wants
+/// (Coefficients::edge says whether they do audit). `takes_lagged`: of a stage that takes the flux correction of the stage before.
+PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material, bool audits = false,
+                                  bool takes_lagged = false);
 
-/// With several materials: the sweeps for all of them, and stress and energy of this one. `audits`: the edge loops return the power of the stabilisation. `takes_lagged`:
-/// of a stage that takes the flux correction of the stage before.
-PartFunctions find_part_functions(const PhysicsSpec& physics, const MaterialSpec& material,
-                                  Materials materials = Materials::one, bool audits = false, bool takes_lagged = false);
+/// What sweeps and rules ask of a law.
+LawTraits law_traits(Law law);
+bool has_plasticity(const Scene& scene);
 
-/// Whether the sweeps of these choices are compiled for several materials.
-bool takes_several_materials(const PhysicsSpec& physics);
+/// What the edge loops compute.
+EdgeChoices edge_choices(const PhysicsSpec& physics, bool audits = false);
 
 }  // namespace nanson

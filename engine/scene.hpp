@@ -214,10 +214,6 @@ inline std::span<const MaterialSpec> materials_of(const Scene& s) {
   return s.materials.empty() ? std::span(&s.material, 1) : std::span(s.materials);
 }
 
-inline bool has_plasticity(const Scene& s) {
-  return std::ranges::any_of(materials_of(s), [](const MaterialSpec& m) { return m.law == Law::hencky_j2; });
-}
-
 /// Output field names with their number of components, in the one table that reader, writer and solver share.
 struct FieldName {
   std::string_view name;

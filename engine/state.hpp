@@ -72,7 +72,8 @@ void each_array(const Domain& d, SomeState& u, Visit visit) {
   say("GP", Keep::work, row::GP * nodes, p.pressure_jump == PressureJump::tensor && linear, u.GP);
   say("L", Keep::work, row::L * nodes,
       p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst, u.L);
-  say("plastic", Keep::unknown, row::plastic * nodes, has_plasticity(*d.scene), u.plastic);
+  say("plastic", Keep::unknown, row::plastic * nodes * static_cast<std::size_t>(d.mixture.state_sets),
+      has_plasticity(*d.scene), u.plastic);
   say("loads", Keep::work, 4 * d.boundary.slot_nodes.size(), true, u.loads);
   say("reactions", Keep::work, reaction_row * constraints, true, u.reactions);
   say("mean_reactions", Keep::carried, reaction_row * constraints, true, u.mean_reactions);

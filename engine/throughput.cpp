@@ -1,35 +1,30 @@
 // Work of the steps from the traits, over the time of the sweeps.
 #include "engine/throughput.hpp"
+
+#include "engine/choices.hpp"
 #include "engine/counted.hpp"
 #include "engine/work.hpp"
+#include "kernels/materials/hencky_j2.hpp"
 
 namespace nanson {
 namespace {
 
-template <Law law, Volumetric volumetric, Isochoric isochoric>
-double flops(Formulation f, const MaterialConstants& m) {
-  if (f == Formulation::pF) return flops_of_law<law, volumetric, Isochoric::F, Formulation::pF>(m);
-  if (f == Formulation::pFJ) return flops_of_law<law, volumetric, isochoric, Formulation::pFJ>(m);
-  return flops_of_law<law, volumetric, isochoric, Formulation::pFHJ>(m);
-}
-template <Law law, Volumetric volumetric>
-double flops(const MaterialSpec& s, Formulation f, const MaterialConstants& m) {
-  return s.isochoric == Isochoric::J ? flops<law, volumetric, Isochoric::J>(f, m)
-                                     : flops<law, volumetric, Isochoric::F>(f, m);
-}
-template <Law law>
-double flops(const MaterialSpec& s, Formulation f, const MaterialConstants& m) {
-  return s.volumetric == Volumetric::barrier ? flops<law, Volumetric::barrier>(s, f, m)
-                                             : flops<law, Volumetric::quadratic>(s, f, m);
-}
-
-/// Of one evaluation of the scene's law; none for plasticity, whose work depends on what flows.
-std::optional<double> law_flops(const MaterialSpec& s, Formulation f) {
-  const MaterialConstants m = constants_of(s);
-  if (s.law == Law::linear_elastic) return flops<Law::linear_elastic>(s, f, m);
-  if (s.law == Law::neo_hookean) return flops<Law::neo_hookean>(s, f, m);
-  if (s.law == Law::mooney_rivlin) return flops<Law::mooney_rivlin>(s, f, m);
-  return std::nullopt;
+/// Of one evaluation of the scene's law; none for a law with a state, whose work depends on what flows.
+std::optional<double> law_flops(const MaterialSpec& s, Formulation choice) {
+  std::optional<double> flops;
+  with(s.law, [&]<Law law>() {
+    with(s.volumetric, [&]<Volumetric volumetric>() {
+      with(s.isochoric, [&]<Isochoric isochoric>() {
+        with(choice, [&]<Formulation formulation>() {
+          if constexpr (is_material<
+                            law, volumetric, isochoric,
+                            formulation> && !Material<law, volumetric, isochoric, formulation>::traits.has_state)
+            flops = flops_of_law<law, volumetric, isochoric, formulation>(constants_of(s));
+        });
+      });
+    });
+  });
+  return flops;
 }
 
 }  // namespace

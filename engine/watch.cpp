@@ -86,7 +86,6 @@ Extrema extrema(const Simulation& s) {
   constexpr std::size_t count = 9;
   const bool with_J = evolves_J(s.domain.scene->physics.formulation);
   const double* U = s.state.U[0].data();
-  const double* plastic = s.state.plastic.empty() ? nullptr : s.state.plastic.data();
   const TetArrays tets = s.domain.tets.arrays();
   for_parts(s, [&](int p, Scratch) {
     const Part& part = s.domain.order.parts[static_cast<std::size_t>(p)];
@@ -94,8 +93,8 @@ Extrema extrema(const Simulation& s) {
     const NodeExtrema e = with_J ? node_extrema_part<true>(part, U, node_of)
                                  : node_extrema_part<false>(part, U, node_of);
     double strain = 0;
-    for (int n = part.node_begin; plastic && n < part.node_end; ++n)
-      if (node_of[n] >= 0) strain = std::max(strain, plastic[row::plastic * n + 3]);
+    for (int n = part.node_begin; !s.state.plastic.empty() && n < part.node_end; ++n)
+      if (node_of[n] >= 0) strain = std::max(strain, plastic_strain(s.domain.mixture, s.state.plastic, n));
     const double least_tet = s.domain.tets.first.empty()
                                  ? 1e300
                                  : least_tet_ratio(tets, s.domain.tets.first[static_cast<std::size_t>(p)],

@@ -4,23 +4,26 @@
 
 namespace nanson {
 
-/// Undeformed density of a node [kg/m^3].
-template <Materials materials>
-NANSON_INLINE double density(const Rows& rows, const Coefficients& k, int n) {
-  if constexpr (materials == Materials::several) return rows.rho[n];
-  else return k.material.rho;
-}
+/// Undeformed density [kg/m^3]: of the material, or of every node.
+struct OneDensity {
+  double rho;
+  double operator[](int) const { return rho; }
+};
+struct NodeDensity {
+  const double* rho;
+  double operator[](int n) const { return rho[n]; }
+};
 
 /// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
 /// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
-template <GradientCorrection correction, Materials materials>
+template <GradientCorrection correction, class Density>
 NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows,
-                          const Coefficients& k, const Scratch& scratch) {
+                          const Coefficients& k, Density rho, const Scratch& scratch) {
   constexpr bool corrected = correction == GradientCorrection::found;
   constexpr int width = corrected ? 8 : 4;
   const double* buffer = scratch.edge;
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    const double inverse_volume = rows.X[row::X * n + 3], mass = density<materials>(rows, k, n) / inverse_volume;
+    const double inverse_volume = rows.X[row::X * n + 3], mass = rho[n] / inverse_volume;
     Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
     Vec8 g[3] = {concat(f, Vec4{})};  // {force | column 0 of dG}, {unused | column 1}, {unused | column 2}
     const auto add = [&](auto sense, std::ptrdiff_t e) {
@@ -47,13 +50,13 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
 }
 
 /// Along each held direction the force becomes mass x prescribed acceleration; what the support gave is booked [N].
-template <Materials materials>
-NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficients& k, const Constraint* constraints,
-                             double* reactions, const Scratch& scratch) {
+template <class Density>
+NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficients& k, Density rho,
+                             const Constraint* constraints, double* reactions, const Scratch& scratch) {
   for (std::int32_t i = part.constraint_begin; i < part.constraint_end; ++i) {
     const Constraint& h = constraints[i];
     double* f = scratch.force + 4 * (h.node - part.node_begin);
-    const double mass = density<materials>(rows, k, h.node) / rows.X[row::X * h.node + 3];
+    const double mass = rho[h.node] / rows.X[row::X * h.node + 3];
     const double* v = rows.W + row::W * h.node;
     double* booked = reactions + reaction_row * i;
     for (int m = 0; m < reaction_row; ++m) booked[m] = 0;
@@ -71,8 +74,9 @@ NANSON_INLINE void constrain(const Part& part, const Rows& rows, const Coefficie
 }
 
 /// dv/dt = f/(rho Omega), dF/dt = G, dH/dt = F x G, dJ/dt = H:G (current areas: row dJ) + source/Omega, dx/dt = v; then U_new = w0 U_old + w1 U_stage + dt dU/dt (eq. 50).
-template <Formulation formulation, GradientCorrection correction, Areas areas, Materials materials>
-NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients& k, const Scratch& scratch) {
+template <Formulation formulation, GradientCorrection correction, Areas areas, class Density>
+NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients& k, Density rho,
+                          const Scratch& scratch) {
   const Vec4 w0 = broadcast4(k.old_weight), w1 = broadcast4(k.stage_weight), dt = broadcast4(k.dt);
   double inverse_rho = 1.0 / k.material.rho;
   auto advance = [&](const double* old_row, const double* stage_row, double* new_row, Vec4 rate) {
@@ -88,12 +92,12 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
                                                                   : scratch.dG + 12 * (n - part.node_begin);
       for (int I = 0; I < 3; ++I) g[I] = g[I] + load4(dG + 4 * I);
     }
-    if constexpr (materials == Materials::several) inverse_rho = 1.0 / rows.rho[n];
+    if constexpr (std::is_same_v<Density, NodeDensity>) inverse_rho = 1.0 / rho[n];
     const double inverse_volume = rows.X[row::X * n + 3], inverse_mass = inverse_rho * inverse_volume;
     Vec4 rate = load4(scratch.force + 4 * (n - part.node_begin))
                 * Vec4{inverse_mass, inverse_mass, inverse_mass, inverse_volume};
-    if constexpr (areas == Areas::current) rate[3] += rows.dJ[n];
-    else if constexpr (formulation != Formulation::pF) {
+    if constexpr (areas == Areas::current && evolves_J(formulation)) rate[3] += rows.dJ[n];
+    else if constexpr (evolves_J(formulation)) {
       Vec4 p = load4(PH + 4) * g[0];
       p = fma(load4(PH + 12), g[1], p);
       p = fma(load4(PH + 20), g[2], p);
@@ -122,13 +126,18 @@ NANSON_INLINE void update(const Part& part, const Rows& rows, const Coefficients
   }
 }
 
-template <Formulation formulation, GradientCorrection correction, Areas areas, Materials materials>
+/// What is chosen once a sweep: area vectors, and densities.
+template <Formulation formulation, GradientCorrection correction>
 void accumulate_update_part(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows,
                             const Coefficients& k, const Constraint* constraints, double* reactions,
                             const Scratch& scratch) {
-  gather<correction, materials>(part, edges, lists, rows, k, scratch);
-  constrain<materials>(part, rows, k, constraints, reactions, scratch);
-  update<formulation, correction, areas, materials>(part, rows, k, scratch);
+  const auto with = [&](auto rho) {
+    gather<correction>(part, edges, lists, rows, k, rho, scratch);
+    constrain(part, rows, k, rho, constraints, reactions, scratch);
+    if (rows.dJ) update<formulation, correction, Areas::current>(part, rows, k, rho, scratch);
+    else update<formulation, correction, Areas::undeformed>(part, rows, k, rho, scratch);
+  };
+  rows.rho ? with(NodeDensity{rows.rho}) : with(OneDensity{k.material.rho});
 }
 
 }  // namespace nanson

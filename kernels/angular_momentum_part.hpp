@@ -7,15 +7,18 @@ namespace nanson {
 /// About the point o: sum Omega, sum Omega r (3), sum Omega r (x) r (6: 11 22 33 12 13 23), sum r x f (3); r = y - o, f [N] all forces of the stage.
 inline constexpr int moment_count = 13;
 
-/// `nodes` leaves out the padding. y stands in the rows U `arms`, f in scratch.force (after the supports). Eight nodes at a time.
-inline void moments_part(const Part& part, int nodes, const double* X, const double* arms, const double (&o)[3],
-                         const Scratch& scratch, double* sums) {
+/// Rows with a step length beyond this are padding [m].
+inline constexpr double padding_length = 1e299;
+
+/// `nodes` leaves out the padding at the part's end, an infinite step length (that of several materials) the padding between. y stands in the rows U `arms`, f in scratch.force (after the supports). Eight nodes at a time.
+inline void moments_part(const Part& part, int nodes, const double* X, const double* step_length, const double* arms,
+                         const double (&o)[3], const Scratch& scratch, double* sums) {
   const Vec8 zero{};
   Vec8 sum_of[moment_count] = {};
   const auto add = [&](int i, Vec8 term) { sum_of[i] = sum_of[i] + term; };
   for (int at = 0; at < nodes; at += 8) {
     const std::ptrdiff_t n = part.node_begin + at;
-    const Mask8 real = first_lanes(nodes - at);
+    const Mask8 real = first_lanes(nodes - at) & (load8(step_length + n) < padding_length);
     Vec8 r[3], f[3], inverse_volume, a, b, c;
     load_transposed(X + row::X * n, row::X, a, b, c, inverse_volume);
     load_transposed(scratch.force + 4 * at, 4, f[0], f[1], f[2], a);
@@ -40,14 +43,15 @@ inline void moments_part(const Part& part, int nodes, const double* X, const dou
 
 /// f += Omega lambda x (y - c) on the stage's new rows: dt lambda x (y - c)/rho0 is added to v, but for the held directions, whose supports react.
 /// Returns the power of the correction at the stage's velocity [W].
-inline double correct_part(const Part& part, int nodes, const Rows& rows, const Coefficients& k, const double* arms,
-                           const double (&lambda)[3], const double (&c)[3], const Constraint* constraints,
-                           double* reactions) {
+inline double correct_part(const Part& part, int nodes, const Rows& rows, const Coefficients& k,
+                           const double* step_length, const double* arms, const double (&lambda)[3],
+                           const double (&c)[3], const Constraint* constraints, double* reactions) {
   double power = 0;
   std::int32_t held = part.constraint_begin;
   for (int n = part.node_begin; n < part.node_begin + nodes; ++n) {
-    const double volume = 1 / rows.X[row::X * n + 3], per_mass = k.dt / k.material.rho, *y = arms + row::U * n,
-                 *v = rows.W + row::W * n;
+    if (!(step_length[n] < padding_length)) continue;
+    const double volume = 1 / rows.X[row::X * n + 3], per_mass = k.dt / (rows.rho ? rows.rho[n] : k.material.rho),
+                 *y = arms + row::U * n, *v = rows.W + row::W * n;
     const double r[3] = {y[7] - c[0], y[11] - c[1], y[15] - c[2]};
     double f[3];  // [N/m^3]
     for (int i = 0; i < 3; ++i) f[i] = lambda[(i + 1) % 3] * r[(i + 2) % 3] - lambda[(i + 2) % 3] * r[(i + 1) % 3];

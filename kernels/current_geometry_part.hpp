@@ -33,8 +33,8 @@ inline void dual_areas_part(const Part& part, const EdgeArrays& edges, const Cor
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
     const Vec4 m = (x(edges.a[e]) + x(edges.b[e])) * 0.5;
     Vec4 sum{};
-    for (int line = 0; line < 2; ++line) __builtin_prefetch(areas.cd + 2 * areas.ring[e] + 512 + 16 * line);
-    __builtin_prefetch(areas.x + row::x * edges.b[e + 100]);  // c and d are neighbours of a too
+    for (int line = 0; line < 2; ++line) __builtin_prefetch(areas.cd + 2 * areas.ring[e] + ahead::rings + 16 * line);
+    __builtin_prefetch(areas.x + row::x * edges.b[e + ahead::single_rows]);  // c and d are neighbours of a too
     for (std::int32_t i = areas.ring[e]; i < areas.ring[e + 1]; ++i) {
       const Vec4 p = x(areas.cd[2 * i]) - m, q = x(areas.cd[2 * i + 1]) - m;
       sum = sum + (p * rotated(q) - rotated(p) * q);
@@ -68,7 +68,7 @@ inline void mapped_areas_part(const Part& part, const EdgeArrays& edges, const C
                               const NodeLists& lists, const CurrentAreas& areas) {
   const auto H = [&](std::int32_t n, int I) { return load4(areas.map + row::H * n + 4 * I); };
   for (std::int32_t e = part.edge_begin; e < part.edge_end; ++e) {
-    const std::int32_t a = edges.a[e], b = edges.b[e], next = edges.b[e + 60];
+    const std::int32_t a = edges.a[e], b = edges.b[e], next = edges.b[e + ahead::rows];
     __builtin_prefetch(areas.map + row::H * next);
     __builtin_prefetch(areas.map + row::H * next + 8);
     Vec4 c{};

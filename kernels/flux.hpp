@@ -16,10 +16,9 @@ struct EdgeCoefficientsOf {
   Real volume;  // [m^3/(Pa s)]
 };
 
-template <UpwindMetric metric, class Real, class Z>
-NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, Z rho_cp, Z rho_cs) {
-  Real cn = size;
-  if constexpr (metric == UpwindMetric::deformed) cn = larger(size, root(cc));
+template <class Real, class Z>
+NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, Z rho_cp, Z rho_cs, bool deformed_metric) {
+  const Real cn = deformed_metric ? larger(size, root(cc)) : size;
   const Real inverse = 1.0 / (cc * cn);
   const Real shear = 0.5 * (rho_cs * size);
   return {shear, fma(Real{} + 0.5 * rho_cp, cn, -shear) * (inverse * cn), (0.5 / rho_cp) * (cc * cc) * inverse};
@@ -31,12 +30,17 @@ struct StabiliserOf {
   Real shear, volume, along;
 };
 
+/// From the product c.d of the reconstructed jump of v.
+template <class Real>
+NANSON_INLINE StabiliserOf<Real> stabiliser(const EdgeCoefficientsOf<Real>& s, Real cd) {
+  return {s.shear, s.volume, s.normal * cd};
+}
+
 /// The entropy fix drops the normal or the tangential part of D^p, and D^J, where the reconstructed jump d opposes the plain one (method, section 3).
 /// From the products c.d, c.plain and d.plain of the velocity jumps, and that of the pressure jumps.
-template <EntropyFix fix, class Real>
-NANSON_INLINE StabiliserOf<Real> stabiliser(const EdgeCoefficientsOf<Real>& s, Real cc, Real cd, Real c_plain,
-                                            Real d_plain, Real pressure_product) {
-  if constexpr (fix == EntropyFix::none) return {s.shear, s.volume, s.normal * cd};
+template <class Real>
+NANSON_INLINE StabiliserOf<Real> fixed_stabiliser(const EdgeCoefficientsOf<Real>& s, Real cc, Real cd, Real c_plain,
+                                                  Real d_plain, Real pressure_product) {
   const Real zero{}, cd_cc = cd / cc, tangential = d_plain - cd_cc * c_plain;
   const Real shear = choose(tangential < 0.0, zero, s.shear), volume = choose(pressure_product < 0.0, zero, s.volume);
   const Real normal = choose(cd * c_plain < 0.0, zero, fma(s.normal, cd, s.shear * cd_cc));

@@ -17,25 +17,24 @@ NANSON_INLINE void around(int n, const EdgeArrays& edges, const CornerArrays& co
 
 /// Asks for the neighbours of nodes, or for their edges too, that will be read some nodes later: the processor's own prefetch loses the sequence of so many arrays as
 /// soon as rows are gathered between them. The arrays are padded.
-inline constexpr int edges_ahead = 256;
 NANSON_INLINE void prefetch_lists(int n, const EdgeArrays& edges, const NodeLists& lists) {
-  __builtin_prefetch(edges.b + lists.out[n] + edges_ahead + 200);
-  __builtin_prefetch(lists.in_edges + lists.in[n] + edges_ahead);
-  __builtin_prefetch(lists.in_nodes + lists.in[n] + edges_ahead);
+  __builtin_prefetch(edges.b + lists.out[n] + ahead::arrays + ahead::swept_rows);
+  __builtin_prefetch(lists.in_edges + lists.in[n] + ahead::arrays);
+  __builtin_prefetch(lists.in_nodes + lists.in[n] + ahead::arrays);
 }
 NANSON_INLINE void prefetch_edges(int n, const EdgeArrays& edges, const NodeLists& lists) {
-  const std::ptrdiff_t e = lists.out[n] + edges_ahead;
+  const std::ptrdiff_t e = lists.out[n] + ahead::arrays;
   for (const double* C : edges.C) {
     __builtin_prefetch(C + e);
     __builtin_prefetch(C + e + 8);
   }
   prefetch_lists(n, edges, lists);
 }
-/// Asks for the row at the other end of an out-edge that comes `ahead` edges later; those of in-edges are the part's own.
-template <std::ptrdiff_t width, int ahead, int lines = 1, class Sense>
+/// Asks for the row at the other end of an out-edge that comes `distance` edges later; those of in-edges are the part's own.
+template <std::ptrdiff_t width, int distance, int lines = 1, class Sense>
 NANSON_INLINE void prefetch_row(Sense, const double* rows, const EdgeArrays& edges, std::ptrdiff_t e) {
   if constexpr (Sense::value > 0) {
-    const double* next = rows + width * edges.b[e + ahead];
+    const double* next = rows + width * edges.b[e + distance];
     for (int line = 0; line < lines; ++line) __builtin_prefetch(next + 8 * line);
   }
 }
@@ -50,7 +49,7 @@ NANSON_INLINE void gradient_of_W(int n, const EdgeArrays& edges, const CornerArr
   around(
       n, edges, corners, lists,
       [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::W, 200>(sense, rows.W, edges, e);
+        prefetch_row<row::W, ahead::swept_rows>(sense, rows.W, edges, e);
         const Vec4 d = Wa - load4(rows.W + row::W * b);  // this way round the load is part of the subtraction
         const auto back = opposite(sense);
         g0 = add_product(back, d, broadcast4(edges.C[0][e]), g0);
@@ -114,14 +113,14 @@ NANSON_INLINE void gradients_of_W_and_P(int n, const EdgeArrays& edges, const Co
   around(
       n, edges, corners, lists,
       [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::W, 60>(sense, rows.W, edges, e);
-        prefetch_row<row::PH, 60, 3>(sense, rows.PH, edges, e);
+        prefetch_row<row::W, ahead::rows>(sense, rows.W, edges, e);
+        prefetch_row<row::PH, ahead::rows, 3>(sense, rows.PH, edges, e);
         const double* Pb = rows.PH + row::PH * b;
         const Vec8 C[3] = {broadcast8(edges.C[0][e]), broadcast8(edges.C[1][e]), broadcast8(edges.C[2][e])};
         const Vec4 d0 = P[0] - load4(Pb), d1 = P[1] - load4(Pb + 8), d2 = P[2] - load4(Pb + 16);
         add(opposite(sense), d0, d1, d2, Wa - load4(rows.W + row::W * b), C);
         if constexpr (corrects) {
-          prefetch_row<row::X, 60>(sense, rows.X, edges, e);
+          prefetch_row<row::X, ahead::rows>(sense, rows.X, edges, e);
           const Vec4 D = Xa - load4(rows.X + row::X * b), y = fma(d2, low(C[2]), fma(d1, low(C[1]), d0 * low(C[0])));
           const Vec8 D01 = lanes_of<0, 0, 0, 2, 1, 1, 1, 3>(D);  // y has 0 in lane 3: D_2 there serves DD
           q01 = add_product(sense, concat(y, y), D01, q01);
@@ -161,7 +160,7 @@ NANSON_INLINE void limiter(int n, const EdgeArrays& edges, const CornerArrays& c
   around(
       n, edges, corners, lists,
       [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::X, 60>(sense, rows.X, edges, e);
+        prefetch_row<row::X, ahead::rows>(sense, rows.X, edges, e);
         const Vec4 d = load4(rows.W + row::W * b) - Wa, slope = along(G, load4(rows.X + row::X * b) - Xa) * 0.5;
         above = larger(above, d);
         below = smaller(below, d);
@@ -181,7 +180,7 @@ NANSON_INLINE void pseudo_laplacian(int n, const EdgeArrays& edges, const Corner
   around(
       n, edges, corners, lists,
       [&](auto sense, std::ptrdiff_t e, std::ptrdiff_t b) {
-        prefetch_row<row::X, 60>(sense, rows.X, edges, e);
+        prefetch_row<row::X, ahead::rows>(sense, rows.X, edges, e);
         const Vec4 weight = dot3(lambda, load4(rows.X + row::X * b) - Xa) + 1.0;
         sum = fma(weight, load4(rows.W + row::W * b) - Wa, sum);
       },

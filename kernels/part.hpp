@@ -25,6 +25,21 @@ inline constexpr std::ptrdiff_t lambda = 4;   // {lambda, 0}: makes the pseudo-L
 inline constexpr std::ptrdiff_t plastic = 8;  // {C_p^-1 11 22 33, eps_p | 12 23 31, 0} (hencky_j2)
 }  // namespace row
 
+/// How far ahead of a loop rows and arrays are asked for (measured). Neighbours are looked up in the edge arrays to find their rows: these arrays go on for
+/// `padding` entries past the last edge.
+namespace ahead {
+inline constexpr int nodes = 40;         // rows of the part's own nodes
+inline constexpr int wide_rows = 40;     // edges; rows of three lines
+inline constexpr int rows = 60;          // edges
+inline constexpr int single_rows = 100;  // edges; a line, or a part of one, and little work an edge
+inline constexpr int swept_rows = 200;   // edges; W of the gradient sweep
+inline constexpr int blocks = 64;        // edges; matrices of the edges themselves
+inline constexpr int arrays = 256;       // entries of the edge arrays
+inline constexpr int rings = 512;        // entries of the tets around edges
+inline constexpr std::size_t padding = 512;
+}  // namespace ahead
+static_assert(ahead::arrays + ahead::swept_rows <= ahead::padding);  // the furthest look-up
+
 /// Edges as structure of arrays, grouped by part, sorted by their first node a, which the part owns; an edge between two parts stands in both.
 struct EdgeArrays {
   const std::int32_t* a;           // row of the owned node
@@ -128,15 +143,25 @@ struct Constraint {
 
 inline constexpr int reaction_row = 4;  // per constraint: force of the support along each direction [N], its power [W]
 
+/// What an edge loop computes, asked once a block of eight edges. What it loads is a type (edge_flux_part).
+struct EdgeChoices {
+  bool evolves_J = true;        // D^J
+  bool deformed_metric = true;  // c_p max(1, |H N|), else c_p; for the step bound too
+  bool entropy_fix = false;     // these two of loops with plain jumps only
+  bool audits = false;          // returns the power of the stabilisation
+  bool adds_pressure = false;   // q of Sigma_J, found by this loop or lagged (pressure correction)
+};
+
 /// Constants of a scene and of a stage.
 struct Coefficients {
   MaterialConstants material;
   double rho_cp = 0, rho_cs = 0;  // [kg/(m^2 s)]
   double theta = 2.0 / 3;         // [-] flux correction
   bool adjoint = true;            // boundary flux
-  bool deformed_metric = true;    // upwinding, for the step bound
-  bool sweeps_J = false;          // W is {v, J} in place of {v, Sigma_J} (jst)
-  double g[3] = {};               // [m/s^2] body force
+  EdgeChoices edge;
+  bool current_areas = false;  // rows of the Cauchy stress in place of H
+  bool sweeps_J = false;       // W is {v, J} in place of {v, Sigma_J} (jst)
+  double g[3] = {};            // [m/s^2] body force
   double old_weight = 0, stage_weight = 1,
          dt = 0;         // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
   bool streams = false;  // the mesh is larger than the caches: rows that only other sweeps read are written past them
@@ -170,10 +195,6 @@ enum class NodeWeights { none, limiter, laplacian };
 /// What fluxes multiply stresses with: the undeformed area vectors C, P and H; or the current ones c and the Cauchy stress.
 enum class Areas { undeformed, current };
 
-/// What an edge loop does about the flux correction: nothing, also where the lagged one of the full correction stands in P; finds that of the pressure or of the whole
-/// stress, with that of the velocity gradient; takes that of the pressure from where the last stage has left it.
-enum class EdgeCorrection { none, finds_pressure, finds_full, takes_pressure };
-
 /// What an update does about the flux correction of the velocity gradient: there is none | it takes that of the last stage | it finds it.
 enum class GradientCorrection { none, lagged, found };
 
@@ -183,31 +204,23 @@ void gradient_part(const Part&, const EdgeArrays&, const CornerArrays&, const No
                    const Coefficients&);
 
 /// The edge loops return the power that the stabilisation takes out of the edges that the part counts [W], where they audit, else 0 (jst: always).
-template <Reconstruction, EdgeCorrection, bool evolves_J, PressureJump, UpwindMetric, EntropyFix, bool audits,
-          Materials = Materials::one>
+/// The types are what is loaded: gradients and limiters, what the flux correction finds in them, rows of P, nodal jumps beside the reconstructed ones, area vectors.
+template <Reconstruction, FluxCorrection found, PressureJump, bool plain_jumps, Areas>
 double edge_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
                       const Coefficients&, const Scratch&);
 
-template <bool evolves_J>
-double edge_flux_jst_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
-                          const Coefficients&, const Scratch&);
-
-template <Reconstruction, UpwindMetric, bool audits>
-double current_flux_part(const Part&, const EdgeArrays&, const CornerArrays&, const NodeLists&, const Rows&,
-                         const Coefficients&, const Scratch&);
-
-template <Formulation, GradientCorrection, Areas = Areas::undeformed, Materials = Materials::one>
+template <Formulation, GradientCorrection>
 void accumulate_update_part(const Part&, const EdgeArrays&, const NodeLists&, const Rows&, const Coefficients&,
                             const Constraint*, double* reactions, const Scratch&);
 
-template <Law, Volumetric, Isochoric, Formulation, Areas = Areas::undeformed, Parting = Parting::none>
+template <Law, Volumetric, Isochoric, Formulation>
 PartReport stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 template <Law>
 PartReport projected_stress_part(const Part&, const Rows&, const Coefficients&, const double* step_length);
 
 /// Strain energy of a part's nodes in U_stage, H_stage [J].
-template <Law, Volumetric, Isochoric, Formulation, Parting = Parting::none>
+template <Law, Volumetric, Isochoric, Formulation>
 double strain_energy_part(const Part&, const Rows&, const Coefficients&);
 template <Law>
 double projected_energy_part(const Part&, const Rows&, const Coefficients&);

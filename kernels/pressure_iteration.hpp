@@ -13,8 +13,8 @@ inline void pressure_force_part(const Part& part, const EdgeArrays& edges, const
     Vec4 f{}, in{};
     prefetch_lists(n, edges, lists);
     for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-      __builtin_prefetch(rows.E + row::E * (e + 64));
-      __builtin_prefetch(rows.d + edges.b[e + 100]);
+      __builtin_prefetch(rows.E + row::E * (e + ahead::blocks));
+      __builtin_prefetch(rows.d + edges.b[e + ahead::single_rows]);
       f = fma(load4(rows.E + row::E * e + 4), broadcast4(rows.d[edges.b[e]]), f);
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
@@ -54,8 +54,8 @@ inline Three pressure_operator_part(const Part& part, const EdgeArrays& edges, c
     Vec4 D{}, in{};
     prefetch_lists(n, edges, lists);
     for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-      __builtin_prefetch(rows.E + row::E * (e + 64));
-      __builtin_prefetch(rows.V + row::V * edges.b[e + 100]);
+      __builtin_prefetch(rows.E + row::E * (e + ahead::blocks));
+      __builtin_prefetch(rows.V + row::V * edges.b[e + ahead::single_rows]);
       D = fma(load4(rows.E + row::E * e), load4(rows.V + row::V * edges.b[e]), D);
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {

@@ -63,7 +63,7 @@ inline void projection_edges_part(const Part& part, const EdgeArrays& edges, con
     const double* PHa = rows.PH + row::PH * a;
     prefetch_edges(a, edges, lists);
     for (std::int32_t e = lists.out[a]; e < lists.out[a + 1]; ++e) {
-      prefetch_row<row::PH, 40, 3>(Outward(), rows.PH, edges, e);
+      prefetch_row<row::PH, ahead::wide_rows, 3>(Outward(), rows.PH, edges, e);
       const double C0 = 0.5 * edges.C[0][e], C1 = 0.5 * edges.C[1][e], C2 = 0.5 * edges.C[2][e];
       Vec4 ha = area(PHa, C0, C1, C2), hb = area(rows.PH + row::PH * edges.b[e], C0, C1, C2);
       const Vec4 c = ha + hb;
@@ -117,10 +117,10 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
     };
     prefetch_lists(n, edges, lists);
     for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-      prefetch_row<row::X, 60>(Outward(), rows.X, edges, e);
-      prefetch_row<row::G, 60, 2>(Outward(), rows.G, edges, e);
+      prefetch_row<row::X, ahead::rows>(Outward(), rows.X, edges, e);
+      prefetch_row<row::G, ahead::rows, 2>(Outward(), rows.G, edges, e);
       const double* E = rows.E + row::E * e;
-      __builtin_prefetch(E + row::E * 64);
+      __builtin_prefetch(E + row::E * ahead::blocks);
       add(edges.b[e], E[7], E);
     }
     for (std::int32_t i = lists.in[n]; i < lists.in[n + 1]; ++i) {
@@ -153,8 +153,8 @@ inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges,
     };
     prefetch_edges(n, edges, lists);
     for (std::ptrdiff_t e = lists.out[n]; e < lists.out[n + 1]; ++e) {
-      prefetch_row<row::U, 60>(Outward(), rows.U, edges, e);
-      __builtin_prefetch(rows.E + row::E * (e + 64));
+      prefetch_row<row::U, ahead::rows>(Outward(), rows.U, edges, e);
+      __builtin_prefetch(rows.E + row::E * (e + ahead::blocks));
       const Vec4 d = load4(rows.U + row::U * edges.b[e]) - Ua;
       add(d, edges.C[0][e], edges.C[1][e], edges.C[2][e]);
       S = fma(rows.E[row::E * e + 7], d[3], S);

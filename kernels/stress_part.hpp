@@ -11,15 +11,13 @@
 
 namespace nanson {
 
-NANSON_INLINE PlasticState<Vec8> load_plastic(const double* p) {
-  PlasticState<Vec8> z;
+NANSON_INLINE void load_state(const double* p, PlasticState<Vec8>& z) {
   Vec8 unused;
   Vec8* C = z.C_p_inv.a;
   load_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p);
   load_transposed(p + 4, row::plastic, C[3], C[4], C[5], unused);
-  return z;
 }
-NANSON_INLINE void store_plastic(double* p, const PlasticState<Vec8>& z) {
+NANSON_INLINE void store_state(double* p, const PlasticState<Vec8>& z) {
   const Vec8* C = z.C_p_inv.a;
   store_transposed(p, row::plastic, C[0], C[1], C[2], z.eps_p);
   store_transposed(p + 4, row::plastic, C[3], C[4], C[5], Vec8{});
@@ -46,10 +44,10 @@ NANSON_INLINE void add_lagged(Tensor<Vec8>& P, const double* dP) {
 
 /// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
 /// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting,
-          bool commits>
-PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
-  using Law_ = Material<law, volumetric, isochoric, formulation>;
+/// The three choices are of the sweep; each is a constant, for a body without the branch, or a bool.
+template <class Own, Formulation formulation, class Current, class Parted, class Commits>
+PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length,
+                        Current current_areas, Parted parted, Commits commits) {
   const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
   Vec8 fastest{}, plastic_work{};
   Mask8 broken{};
@@ -64,36 +62,37 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
         load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
     Stress<Vec8> s;
     Mask8 sound = Vec8{} == 0.0;
-    if constexpr (law == Law::hencky_j2) {
-      const PlasticState<Vec8> z = load_plastic(rows.plastic + row::plastic * n);
-      const ReturnMapping<Vec8> r = Law_::return_mapping(F, z, k.material);
-      s = Law_::stress(F, H, J, r, k.material);
+    if constexpr (Own::traits.has_state) {
+      typename Own::template State<Vec8> z;
+      load_state(rows.plastic + row::plastic * n, z);
+      const auto r = Own::return_mapping(F, z, k.material);
+      s = Own::stress(F, H, J, r, k.material);
       sound = r.q - r.q == 0.0;
-      if constexpr (commits) {
+      if (commits) {
         Vec8 X[3], inverse_volume;
         load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);
         plastic_work = plastic_work + r.plastic_work / inverse_volume;
-        if (any(r.d_gamma > 0.0)) store_plastic(rows.plastic_new + row::plastic * n, Law_::flowed(F, z, r));
+        if (any(r.d_gamma > 0.0)) store_state(rows.plastic_new + row::plastic * n, Own::flowed(F, z, r));
       }
     } else {
-      s = Law_::stress(F, H, J, k.material);
+      s = Own::stress(F, H, J, k.material);
     }
-    if constexpr (parting == Parting::energy) add_parting(s, F, J, k.material.parting);
+    if constexpr (evolves_J(formulation))
+      if (parted) add_parting(s, F, J, k.material.parting);
     if (k.leaves_lagged && rows.dP) add_lagged(s.P, rows.dP + row::dP * n);
 
-    store_rows(rows, n, v,
-               !k.sweeps_J                      ? s.Sigma_J
-               : formulation == Formulation::pF ? s.detF
-                                                : J,
-               s.P, areas == Areas::current ? cauchy_stress(s.P, F, J) : s.H, k.streams);
+    const Vec8 swept = !k.sweeps_J ? s.Sigma_J : evolves_J(formulation) ? J : s.detF;
+    if (current_areas)
+      store_rows(rows, n, v, swept, s.P, cauchy_stress(s.P, F, evolves_J(formulation) ? J : s.detF), k.streams);
+    else store_rows(rows, n, v, swept, s.P, s.H, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);
-    if constexpr (formulation != Formulation::pF && law != Law::linear_elastic)
-      c = larger(c, s.d2U * inverse_rho_cp * (k.deformed_metric ? root(s.H2) : s.H2));
+    if constexpr (evolves_J(formulation) && !Own::traits.is_linear)
+      c = larger(c, s.d2U * inverse_rho_cp * (k.edge.deformed_metric ? root(s.H2) : s.H2));
     const Vec8 rate = c / load8(step_length + n);
     fastest = larger(rate, fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
     sound = sound & (s.detF > 0.0) & (size - size == 0.0);
-    if constexpr (formulation != Formulation::pF) sound = sound & (J > 0.0);
+    if constexpr (evolves_J(formulation)) sound = sound & (J > 0.0);
     broken = broken | ~sound;
   }
   if (k.streams) finish_streams();
@@ -102,18 +101,31 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
   return {largest(fastest), any(broken), work};
 }
 
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Areas areas, Parting parting>
+/// A body for every choice; but a law with a state, whose return outweighs any branch, decides eight nodes at a time.
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 PartReport stress_part(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length) {
-  if constexpr (law == Law::hencky_j2)
-    if (k.commits)
-      return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, true>(part, rows, k, step_length);
-  return stress_sweep<law, volumetric, isochoric, formulation, areas, parting, false>(part, rows, k, step_length);
+  using Own = Material<law, volumetric, isochoric, formulation>;
+  const auto sweep = [&](auto current_areas, auto parted, auto commits) {
+    return stress_sweep<Own, formulation>(part, rows, k, step_length, current_areas, parted, commits);
+  };
+  constexpr std::true_type yes;
+  constexpr std::false_type no;
+  const bool parted = k.material.parting > 0;
+  if constexpr (Own::traits.has_state) {
+    return sweep(k.current_areas, parted, k.commits);
+  } else if constexpr (Own::traits.is_linear) {
+    return sweep(no, no, no);
+  } else {
+    if constexpr (evolves_J(formulation))
+      if (parted) return k.current_areas ? sweep(yes, yes, no) : sweep(no, yes, no);
+    return k.current_areas ? sweep(yes, no, no) : sweep(no, no, no);
+  }
 }
 
 /// Eight nodes at a time, those past the part's end without weight.
-template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation, Parting parting>
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 double strain_energy_part(const Part& part, const Rows& rows, const Coefficients& k) {
-  using Law_ = Material<law, volumetric, isochoric, formulation>;
+  using Own = Material<law, volumetric, isochoric, formulation>;
   Vec8 total{};
   for (std::ptrdiff_t n = part.node_begin; n < part.node_end; n += 8) {
     const double* U = rows.U_stage + row::U * n;
@@ -124,10 +136,15 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
     if constexpr (formulation == Formulation::pFHJ)
       for (int I = 0; I < 3; ++I)
         load_transposed(rows.H_stage + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
-    if constexpr (law == Law::hencky_j2)
-      density = Law_::energy(F, J, load_plastic(rows.plastic + row::plastic * n), k.material);
-    else density = Law_::energy(F, H, J, k.material);
-    if constexpr (parting == Parting::energy) density = density + parting_energy(F, J, k.material.parting);
+    if constexpr (Own::traits.has_state) {
+      typename Own::template State<Vec8> z;
+      load_state(rows.plastic + row::plastic * n, z);
+      density = Own::energy(F, J, z, k.material);
+    } else {
+      density = Own::energy(F, H, J, k.material);
+    }
+    if constexpr (evolves_J(formulation))
+      if (k.material.parting > 0) density = density + parting_energy(F, J, k.material.parting);
     load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);
     total = total + choose(first_lanes(part.node_end - n), density / inverse_volume, Vec8{});
   }

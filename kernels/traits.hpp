@@ -22,10 +22,6 @@ enum class BoundaryFlux { adjoint, paper };
 enum class UpwindMetric { deformed, paper };  // c_p max(1, |H N|) | c_p
 enum class EntropyFix { none, edge };         // edge: no stabilisation against the plain jump
 enum class Parting { none, energy };          // what ties J to det F: nothing but D^J | (M/2) (ln(det F/J))^2 too
-enum class Materials {
-  one,
-  several
-};  // the same density and impedances everywhere | a density a node, impedances an edge
 
 constexpr auto words(Law) {
   return std::array<std::string_view, 4>{"linear_elastic", "neo_hookean", "mooney_rivlin", "hencky_j2"};

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "engine/mixture.hpp"
 #include "io/scene/read_scene.hpp"
 #include "io/scene/words.hpp"
 
@@ -60,24 +59,6 @@ void check_regions(const Scene& scene, const Mesh& mesh, std::vector<std::string
   }
 }
 
-/// A node carries one plastic state.
-void check_plastic_interfaces(const Scene& scene, const Mesh& mesh, std::vector<std::string>& errors) {
-  for (const std::vector<int>& group : node_materials(scene, mesh).groups) {
-    int plastic = -1;
-    for (const int m : group) {
-      const MaterialSpec& own = scene.materials[static_cast<std::size_t>(m)];
-      if (own.law != Law::hencky_j2) continue;
-      if (plastic >= 0)
-        errors.push_back(
-            fmt::format("{}: material.{}.region = \"{}\": touches region \"{}\", hencky_j2 too: a node carries the "
-                        "plastic state of one material",
-                        own.regions[0].where, m, own.regions[0].name,
-                        scene.materials[static_cast<std::size_t>(plastic)].regions[0].name));
-      plastic = m;
-    }
-  }
-}
-
 }  // namespace
 
 std::vector<std::string> check_names(const Scene& scene, const Mesh& mesh) {
@@ -90,7 +71,6 @@ std::vector<std::string> check_names(const Scene& scene, const Mesh& mesh) {
     }
   }
   check_regions(scene, mesh, errors);
-  if (errors.empty()) check_plastic_interfaces(scene, mesh, errors);
   const Box box = bounding_box(mesh);
   for (const ProbeSpec& p : scene.output.probes) {
     if (inside(box, p.at)) continue;

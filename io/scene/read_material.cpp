@@ -70,13 +70,8 @@ void read_material(Table& t, MaterialSpec& m) {
     if (!(m.xi < limit)) t.fail("xi", fmt::format("must be below mu / (3 sqrt(3)) = {:.6g}", limit));
   }
   if (law && m.law == Law::hencky_j2) read_plasticity(t, m);
-  const bool volumetric = t.read("volumetric", m.volumetric), isochoric = t.read("isochoric", m.isochoric);
-  if (!law || (m.law != Law::linear_elastic && m.law != Law::hencky_j2)) return;
-  const auto refuse = [&](std::string_view key, std::string_view allowed) {
-    t.fail(key, fmt::format("has no meaning for {}, allowed: {}", word(m.law), allowed));
-  };
-  if (volumetric && m.volumetric != MaterialSpec{}.volumetric) refuse("volumetric", word(MaterialSpec{}.volumetric));
-  if (isochoric && m.isochoric != MaterialSpec{}.isochoric) refuse("isochoric", word(MaterialSpec{}.isochoric));
+  t.read("volumetric", m.volumetric);
+  t.read("isochoric", m.isochoric);
 }
 
 /// No region twice.

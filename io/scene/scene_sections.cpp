@@ -1,8 +1,6 @@
 // The sections of a scene that are read key by key. Defaults stand in engine/scene.hpp.
 #include "io/scene/scene_sections.hpp"
 
-#include "engine/registry.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -129,21 +127,6 @@ void read_physics(Table& t, PhysicsSpec& p) {
   t.read("entropy_fix", p.entropy_fix);
   t.read("parting", p.parting, {.from = 0});
   t.read("keep_angular_momentum", p.keep_angular_momentum);
-  const bool corrected = t.sound("flux_correction") && p.flux_correction != FluxCorrection::none;
-  if (corrected && t.sound("reconstruction") && p.reconstruction == Reconstruction::constant)
-    t.fail("flux_correction",
-           "needs reconstruction = \"linear\" or \"limited\": the correction is made of its gradients");
-  if (t.sound("pressure_jump") && p.pressure_jump == PressureJump::tensor
-      && (p.reconstruction == Reconstruction::limited || p.entropy_fix != EntropyFix::none))
-    t.fail("pressure_jump", fmt::format("is not built with limited or entropy_fix; {}", what_is_built));
-  if (t.sound("stabilisation") && p.stabilisation == Stabilisation::jst
-      && (p.reconstruction != Reconstruction::linear || p.flux_correction != FluxCorrection::none
-          || p.pressure_jump != PressureJump::scalar || p.entropy_fix != EntropyFix::none
-          || p.upwind_metric != UpwindMetric::deformed))
-    t.fail("stabilisation",
-           fmt::format(
-               "jst has no reconstruction, flux_correction, pressure_jump, upwind_metric or entropy_fix to choose; {}",
-               what_is_built));
 }
 
 void read_projection(Table& t, ProjectionSpec& p) {

@@ -28,6 +28,10 @@ struct ReturnMapping {
 /// P = tau F^-T + p H, p = U'(J) = kappa ln J/J, Sigma_J = p. Energy mu |dev ln V_e|^2 + kappa/2 (ln J)^2 [J/m^3].
 template <Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 struct Material<Law::hencky_j2, volumetric, isochoric, formulation> {
+  static constexpr LawTraits traits{.has_state = true, .carries_energy = true};
+  template <class Real>
+  using State = PlasticState<Real>;
+
   template <class Real>
   NANSON_INLINE static Symmetric<Real> elastic_strain(const Tensor<Real>& F, const Symmetric<Real>& C_p_inv) {
     Tensor<Real> FC;

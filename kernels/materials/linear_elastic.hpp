@@ -8,6 +8,8 @@ namespace nanson {
 /// Energy mu dev eps : dev eps + kappa/2 (tr eps or J - 1)^2 [J/m^3].
 template <Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 struct Material<Law::linear_elastic, volumetric, isochoric, formulation> {
+  static constexpr LawTraits traits{.carries_energy = true, .is_linear = true};
+
   template <class Real>
   NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>&, Real J,
                                            const MaterialConstants& m) {

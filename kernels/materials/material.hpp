@@ -22,7 +22,7 @@ struct MaterialConstants {
   double zeta = 0, xi = 0;   // [Pa] of the isochoric energy (paper, eq. 14)
   double cp = 0, cs = 0;     // [m/s] undeformed wave speeds (paper, eq. 39)
   double parting = 0;        // [Pa] M of the energy of the parting of det F from J, 0 without
-  Hardening hardening;       // hencky_j2
+  Hardening hardening;       // of laws that yield
 };
 
 /// Stress of one node (or of eight as lanes).
@@ -56,7 +56,21 @@ NANSON_INLINE SpectralBounds<Real> spectral_bounds(Real FF, Real HH, Real j) {
   return {eigenvalue_bound(FF, FF * FF - 2.0 * HH), eigenvalue_bound(HH, HH * HH - 2.0 * FF * (j * j))};
 }
 
+/// What sweeps and rules ask of a law. A law with a state has a `State`, `return_mapping` and `flowed` besides stress and energy.
+struct LawTraits {
+  bool has_state = false;       // keeps what flowed, a row a node
+  bool carries_energy = false;  // its volumetric and isochoric energies are its own: there is no choice of them
+  bool is_linear = false;       // in the geometry too: H = I
+};
+
 template <Law, Volumetric, Isochoric, Formulation>
 struct Material;
+
+/// A law's own energies are no choice, and without an evolved J there is none to put into the isochoric one.
+template <Law law, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
+constexpr bool is_material = formulation != Formulation::pFp
+                             && ((volumetric == Volumetric::quadratic && isochoric == Isochoric::F)
+                                 || (!Material<law, volumetric, isochoric, formulation>::traits.carries_energy
+                                     && (isochoric == Isochoric::F || evolves_J(formulation))));
 
 }  // namespace nanson

@@ -10,6 +10,7 @@ namespace nanson {
 /// isochoric = J: j = J as the paper writes it, P = Sigma_F + Sigma_H x F + Sigma_J H, Sigma_J = d psi_iso/dJ + U'(J).
 template <bool with_xi, Volumetric volumetric, Isochoric isochoric, Formulation formulation>
 struct PolyconvexMaterial {
+  static constexpr LawTraits traits{};
   using U = VolumetricEnergy<volumetric>;
 
   template <class Real>

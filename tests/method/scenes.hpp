@@ -223,18 +223,19 @@ inline void push(Simulation& s, const Vec3& v) {
 
 /// Power that the stabilisation takes out of the rows W and PH as they stand [W]; leaves their gradients in the state.
 inline double dissipated_power(Simulation& s) {
-  const PartFunctions functions = find_part_functions(s.domain.scene->physics, s.domain.scene->material, Materials::one,
-                                                      true, s.state.has_lagged_correction);
+  const PartFunctions functions = find_part_functions(s.domain.scene->physics, s.domain.scene->material, true,
+                                                      s.state.has_lagged_correction);
   const Rows rows = stage_rows(s.domain, s.state, 0, 0);
   const auto edges = s.domain.order.edges();
   const auto corners = s.domain.order.corners();
   const auto lists = s.domain.order.lists();
   for (const Part& part : s.domain.order.parts)
     functions.gradient(part, edges, corners, lists, rows, s.domain.coefficients);
+  Coefficients k = s.domain.coefficients;
+  k.edge.audits = true;
   double power = 0;
   for (const Part& part : s.domain.order.parts)
-    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, s.domain.coefficients,
-                                 scratch_of(s, 0));
+    power += functions.edge_flux(part, flux_edges(s), flux_corners(s), lists, rows, k, scratch_of(s, 0));
   return power;
 }
 

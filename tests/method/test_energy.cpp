@@ -332,7 +332,9 @@ double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation f
   for (const Part& part : s.domain.order.parts)
     s.domain.functions.gradient(part, s.domain.order.edges(), s.domain.order.corners(), s.domain.order.lists(), rows,
                                 s.domain.coefficients);
-  const PartFunctions audited = find_part_functions(scene.physics, scene.material, Materials::one, true);
+  const PartFunctions audited = find_part_functions(scene.physics, scene.material, true);
+  Coefficients k = s.domain.coefficients;
+  k.edge.audits = true;
   double least = 1e300;
   total = 0;
   for (int e = 0; e < s.domain.order.out.back(); ++e) {
@@ -340,7 +342,7 @@ double least_dissipation_of_an_edge(Reconstruction reconstruction, Formulation f
     one.edge_begin = e;
     one.edge_end = e + 1;
     const double power = audited.edge_flux(one, s.domain.order.edges(), s.domain.order.corners(),
-                                           s.domain.order.lists(), rows, s.domain.coefficients, scratch_of(s, 0));
+                                           s.domain.order.lists(), rows, k, scratch_of(s, 0));
     least = std::min(least, power);
     total += power;
   }

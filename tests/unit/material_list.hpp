@@ -30,7 +30,7 @@ struct Built {
   static constexpr Parting parting = parting_;
   static constexpr bool finite_strain = law != Law::linear_elastic, evolves_J = formulation != Formulation::pF,
                         evolves_H = formulation == Formulation::pFHJ;
-  using Law_ = Material<law, volumetric, isochoric, formulation>;
+  using Own = Material<law, volumetric, isochoric, formulation>;
 
   [[gnu::noinline]] static Stress<double> stress(const MaterialState& s, const MaterialConstants& m) {
     return stress(s.F, s.H, s.J, m);
@@ -40,7 +40,7 @@ struct Built {
     return stress<Vec8>(F, H, J, m);
   }
   [[gnu::noinline]] static double energy(const MaterialState& s, const MaterialConstants& m) {
-    const double law = Law_::energy(s.F, s.H, s.J, m);
+    const double law = Own::energy(s.F, s.H, s.J, m);
     return parting == Parting::energy ? law + parting_energy(s.F, s.J, m.parting) : law;
   }
   static std::string name() {
@@ -52,7 +52,7 @@ struct Built {
   template <class Real>
   NANSON_INLINE static Stress<Real> stress(const Tensor<Real>& F, const Tensor<Real>& H, Real J,
                                            const MaterialConstants& m) {
-    Stress<Real> s = Law_::stress(F, H, J, m);
+    Stress<Real> s = Own::stress(F, H, J, m);
     if constexpr (parting == Parting::energy) add_parting(s, F, J, m.parting);
     return s;
   }

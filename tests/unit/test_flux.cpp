@@ -44,7 +44,8 @@ double normal_speed(const Edge& e) {
 
 template <UpwindMetric metric>
 EdgeCoefficientsOf<double> coefficients(const Edge& e, double speed_p = cp, double speed_s = cs) {
-  return edge_coefficients<metric>(e.c.squaredNorm(), e.C.norm(), rho * speed_p, rho * speed_s);
+  return edge_coefficients(e.c.squaredNorm(), e.C.norm(), rho * speed_p, rho * speed_s,
+                           metric == UpwindMetric::deformed);
 }
 
 Vector3d momentum(const EdgeCoefficientsOf<double>& s, const Edge& e) {

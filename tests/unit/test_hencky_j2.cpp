@@ -43,10 +43,10 @@ struct Answer {
   Stress<double> stress;
   PlasticState<double> state;
 };
-template <class Law_ = pF>
+template <class Own = pF>
 Answer evaluate(const Tensor<double>& F, const PlasticState<double>& z, const MaterialConstants& m, double J = 0) {
-  const auto r = Law_::return_mapping(F, z, m);
-  return {r, Law_::stress(F, cofactor(F), J > 0 ? J : determinant(F, cofactor(F)), r, m), Law_::flowed(F, z, r)};
+  const auto r = Own::return_mapping(F, z, m);
+  return {r, Own::stress(F, cofactor(F), J > 0 ? J : determinant(F, cofactor(F)), r, m), Own::flowed(F, z, r)};
 }
 
 /// A plastic state that a few random strains leave behind.

@@ -306,8 +306,7 @@ probes = { tip = { at = [0, 0], fields = [] } }
       "isochoric",
       "scene.toml:12:18: material.youngs_modulus = \"17.0e6\": must be a number",
       "scene.toml:13:18: material.poissons_ratio = 0.5: must be below 0.5 unless physics.formulation = \"pFp\"",
-      "scene.toml:16:17: physics.pressure_jump = \"tensor\": needs an evolved J, which formulation = \"pF\" does not "
-      "carry",
+      "scene.toml:16:17: physics.pressure_jump = \"tensor\": needs an evolved J: formulation = \"pFJ\" or \"pFHJ\"",
       "scene.toml:17:1: initial.height: is missing",
       "scene.toml:19:9: initial.omega = nan: must be finite",
       "scene.toml:20:9: initial.v = 3: is not a key of twist, whose keys are omega | height",

@@ -48,9 +48,11 @@ TEST(Scene, PlasticityKeysAreChecked) {
           {"hardening_modulus", "hardening = [[0, 1e4], [1, 2e4]]\nhardening_modulus",
            "scene.toml:10:13: material.hardening = [[0, 10000.0], [1, 20000.0]]: stands beside hardening_modulus"},
           {"hardening_modulus", "volumetric = \"barrier\"\nhardening_modulus",
-           "scene.toml:10:14: material.volumetric = \"barrier\": has no meaning for hencky_j2, allowed: quadratic"},
+           "scene.toml:10:14: material.volumetric = \"barrier\": has no meaning for linear_elastic and hencky_j2, "
+           "whose energies are their own, allowed: quadratic"},
           {"hardening_modulus", "isochoric = \"J\"\nhardening_modulus",
-           "scene.toml:10:13: material.isochoric = \"J\": has no meaning for hencky_j2, allowed: F"},
+           "scene.toml:10:13: material.isochoric = \"J\": has no meaning for linear_elastic and hencky_j2, whose "
+           "energies are their own, allowed: F"},
           {"hardening_modulus", "xi = 0\nhardening_modulus",
            "scene.toml:10:6: material.xi = 0: is not a key of hencky_j2"},
       });

@@ -130,12 +130,12 @@ TEST(WaveSpeedOfMooneyRivlin, BoundAtRestIsAtMostFiveThirds) {
 }
 
 TEST(WaveSpeedOfNeoHookean, BoundOfAUniformStretchIsExact) {
-  using Law_ = Hyperelastic<neo_hookean, barrier>;
+  using Own = Hyperelastic<neo_hookean, barrier>;
   const MaterialConstants m = constants(false);
   for (const double a : {0.5, 0.8, 1.5, 2.5}) {
     const Tensor<double> F = sum(Tensor<double>{}, identity<double>(), a);
-    const double exact = largest_eigenvalue<Law_>(of_F(F), {0, 0, 1}, a, m);
-    EXPECT_NEAR(Law_::stress({F, F, 1.0}, m).rho_c2, exact, 1e-6 * exact) << a;
+    const double exact = largest_eigenvalue<Own>(of_F(F), {0, 0, 1}, a, m);
+    EXPECT_NEAR(Own::stress({F, F, 1.0}, m).rho_c2, exact, 1e-6 * exact) << a;
   }
 }
 
@@ -179,7 +179,7 @@ TYPED_TEST(WaveSpeedOfParting, BoundHoldsHoweverFarDetFIsFromJ) {
     state.J = determinant(s.F, state.H) / std::exp(uniform(random, std::log(0.3), std::log(3)));
     const double bound = TypeParam::stress(state, this->m).rho_c2,
                  size = std::min({s.stretch[0], s.stretch[1], s.stretch[2]});
-    const double without = TypeParam::Law_::stress(state.F, state.H, state.J, this->m).rho_c2;
+    const double without = TypeParam::Own::stress(state.F, state.H, state.J, this->m).rho_c2;
     double largest = 0;
     for (int d = 0; d < 8; ++d) {  // the principal directions, then any
       const Eigen::Vector3d N = row_of(d < 3 ? s.axes : random_rotation(random), d < 3 ? d : 0);
