@@ -10,7 +10,4 @@ void sum_moments(const Simulation& s, const Rows& rows, const double* arms, int 
 /// After the sweep: one solve, then the correction of v in U_new and W_new, and of the stage's reactions. Returns its power [W].
 double keep_angular_momentum(Simulation& s, const Rows& rows, const Coefficients& k, const double* arms);
 
-/// Torque about a point of supports, loads and body force in the present stage, with the arms of the rows U `arms` [N m].
-Vec3 external_torque(const Simulation& s, const double* arms, const Vec3& about);
-
 }  // namespace nanson

@@ -30,7 +30,6 @@ Coefficients coefficients_of(const Scene& scene, const Order& order) {
   k.current_areas = has_current_areas(scene.physics.description);
   k.sweeps_J = scene.physics.stabilisation == Stabilisation::jst;
   k.edge = edge_choices(scene.physics, scene.monitor.energy);
-  for (int i = 0; i < 3; ++i) k.g[i] = scene.body_force[i];
   k.streams = order.nodes >= streaming_nodes;
   return k;
 }

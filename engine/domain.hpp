@@ -50,6 +50,14 @@ inline int nodes_of(const Domain& d, const Part& part) {
   return end - part.node_begin;
 }
 
+inline bool has_gravity(const Domain& d) { return d.scene->body_force != Vec3{}; }
+inline bool has_forces_on_nodes(const Domain& d) { return has_gravity(d) || !d.manufactured.waves.empty(); }
+
+/// Neither loads nor supports.
+inline bool nothing_acts(const Domain& d) {
+  return d.boundary.constraints.empty() && d.boundary.loaded.empty() && !has_forces_on_nodes(d);
+}
+
 std::size_t bytes_of(const Domain& d);
 
 }  // namespace nanson

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "engine/book_stage.hpp"
 #include "engine/monitor.hpp"
 
 namespace nanson {

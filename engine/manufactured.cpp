@@ -64,8 +64,8 @@ Manufactured make_manufactured(const Scene& scene, const Mesh& mesh, const Order
   return out;
 }
 
-void add_body_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material, const Part& part,
-                    double t, double dt, double* U_new) {
+void add_manufactured_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material,
+                            const Part& part, const double* X, double t, double* force) {
   const double oscillation = std::cos(m.omega * t);
   double size[3];
   for (int i = 0; i < 3; ++i) size[i] = scene.initial.amplitudes[static_cast<std::size_t>(i)] * oscillation;
@@ -81,7 +81,8 @@ void add_body_force(const Manufactured& m, const Scene& scene, const MaterialCon
       Vec8 g[3];
       manufactured_body_force<law(), volumetric()>(w, size, m.omega, material, g);
       for (int lane = 0; lane < 8; ++lane)
-        for (int i = 0; i < 3; ++i) U_new[row::U * (n + lane) + i] += dt * g[i][lane];
+        for (int i = 0; i < 3; ++i)
+          force[4 * (n + lane) + i] += g[i][lane] * (material.rho / X[row::X * (n + lane) + 3]);
     }
   });
 }

@@ -16,9 +16,9 @@ struct Manufactured {
 
 Manufactured make_manufactured(const Scene& scene, const Mesh& mesh, const Order& order);
 
-/// v += dt g on the new rows of a part, g the body force at time t [s].
-void add_body_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material, const Part& part,
-                    double t, double dt, double* U_new);
+/// force += rho Omega g on the rows of a part [N], 4 a row; g the body force at time t [s], Omega from {X, 1/Omega}.
+void add_manufactured_force(const Manufactured& m, const Scene& scene, const MaterialConstants& material,
+                            const Part& part, const double* X, double t, double* force);
 
 /// The motion at X and t.
 PointState manufactured_solution(const Scene& scene, const Vec3& X, double t);

@@ -53,12 +53,9 @@ void warn(Simulation& s, std::string_view cause, std::string text);
 double energy_closure(const Simulation& s, const Energies& e);
 
 /// |sum Omega p - start - impulse| / sum Omega |p|.
-double linear_momentum_drift(const Simulation& s);  // NaN where it is not known (initial.field = "manufactured")
+double linear_momentum_drift(const Simulation& s);
 /// |L - L(0) - angular impulse| / sum Omega |x| |p|; nothing under ssp_rk3 when supports or loads exert a torque: its exact arms are known for TVD-RK2 only.
 std::optional<double> angular_momentum_drift(const Simulation& s);
-
-/// Force of a named support on the body, mean of the last step's stages [N]: minus what the projection removes from the assembled force.
-Vec3 reaction(const Simulation& s, int face);
 
 /// Checkerboard measure of the swept pressure: sqrt(sum W (p_b - p_a - (g_a + g_b)/2 . D)^2 / sum W (p_b - p_a)^2) over the edges, W = |C|/|D|, g the Green-Gauss
 /// gradient: 0 for a linear field, 1 for a checkerboard, O(h) for a smooth one (method, section 11). With several materials only edges between nodes
@@ -68,15 +65,6 @@ struct Checkerboard {
   double size = 0;     // [N^2] sum W (p_b - p_a)^2
 };
 Checkerboard checkerboard(const Simulation& s);
-
-/// One stage's share of the loads' work, at the velocities that the stage took its rates of.
-void book_loads(Simulation& s, const Rows& rows, double weighted_dt);
-/// The same of dissipation, whose power the edge loops have left in part_sums, and of the body force's work.
-void audit_stage(Simulation& s, const Rows& rows, double weighted_dt);
-/// After a stage: its share `mean` in the mean reactions, in impulse and work of supports and body force, and in the angular impulse of all that acts.
-void book_stage(Simulation& s, const double* arms, double mean, bool first);
-/// After a step: the plastic work of its new state.
-void book_plastic_work(Simulation& s);
 
 /// Rows whose state is unphysical after a stage: names node, position, J, det F, its tets and regions.
 Breakdown locate_breakdown(const Simulation& s, int stage);

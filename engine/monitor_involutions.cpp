@@ -20,8 +20,9 @@ Tensor<double> tensor_of(const double* columns) {
 Aligned<double> gradient_mismatch(const Simulation& s) {
   const auto rows_of = static_cast<std::size_t>(s.domain.order.rows);
   Aligned<double> x(row::W * rows_of, 0.0), G(row::G * rows_of, 0.0);
+  const double* U = s.state.U[0].data();
   for (std::size_t r = 0; r < rows_of; ++r)
-    for (std::size_t i = 0; i < 3; ++i) x[row::W * r + i] = s.state.U[0][row::U * r + 4 * (i + 1) + 3];
+    std::ranges::copy(state_of_row(U, static_cast<std::ptrdiff_t>(r)).position(), &x[row::W * r]);
   Rows rows{};
   rows.X = s.domain.X.data();
   rows.W = x.data();
@@ -34,9 +35,11 @@ Aligned<double> gradient_mismatch(const Simulation& s) {
                                                    lists, rows, s.domain.coefficients);
   });
   Aligned<double> mismatch(9 * rows_of, 0.0);
-  for (std::size_t r = 0; r < rows_of; ++r)
+  for (std::size_t r = 0; r < rows_of; ++r) {
+    const NodeState u = state_of_row(U, static_cast<std::ptrdiff_t>(r));
     for (std::size_t m = 0; m < 9 && s.domain.order.node_of[r] >= 0; ++m)
-      mismatch[9 * r + m] = s.state.U[0][row::U * r + 4 * (m / 3 + 1) + m % 3] - G[row::G * r + 4 * (m / 3) + m % 3];
+      mismatch[9 * r + m] = u.F(static_cast<int>(m % 3), static_cast<int>(m / 3)) - G[row::G * r + 4 * (m / 3) + m % 3];
+  }
   return mismatch;
 }
 
@@ -48,9 +51,9 @@ Involutions involutions(const Simulation& s) {
   if (!evolves_J(s.domain.scene->physics.formulation)) return out;
   for (std::size_t r = 0; r < s.domain.order.node_of.size(); ++r) {
     if (s.domain.order.node_of[r] < 0) continue;
-    const double* U = &s.state.U[0][row::U * r];
-    const Tensor<double> F = tensor_of(U + 4), cof = cofactor(F);
-    out.J = std::max(out.J, std::abs(U[3] - determinant(F, cof)));
+    const NodeState u = state_of_row(s.state.U[0].data(), static_cast<std::ptrdiff_t>(r));
+    const Tensor<double> F = u.gradient(), cof = cofactor(F);
+    out.J = std::max(out.J, std::abs(u.J() - determinant(F, cof)));
     if (s.state.H[0].empty()) continue;
     const Tensor<double> H = tensor_of(&s.state.H[0][row::H * r]);
     for (int m = 0; m < 9; ++m) out.H = std::max(out.H, std::abs(H[m / 3][m % 3] - cof[m / 3][m % 3]));

@@ -61,7 +61,6 @@ double impedance_ratio(const Scene& s) {
 
 constexpr std::string_view needs_J = "needs an evolved J: formulation = \"pFJ\" or \"pFHJ\"",
                            exact = "has no exact solution with initial.field = \"manufactured\"",
-                           of_audit = "does not book the body force of initial.field = \"manufactured\"",
                            plastic_strain = "plastic_strain needs material.law = \"hencky_j2\"";
 
 constexpr PhysicsRule rules[] = {
@@ -230,10 +229,6 @@ constexpr PhysicsRule rules[] = {
      [](const Scene& s, const Spec&) { return is_manufactured(s) && is_projected(s); }, exact},
     {"body_force.g", "initial.field",
      [](const Scene& s, const Spec&) { return is_manufactured(s) && s.body_force != Vec3{}; }, exact},
-    {"physics.keep_angular_momentum", "initial.field",
-     [](const Scene& s, const Spec&) { return is_manufactured(s) && s.physics.keep_angular_momentum; }, of_audit},
-    {"monitor.energy", "initial.field",
-     [](const Scene& s, const Spec&) { return is_manufactured(s) && s.monitor.energy; }, of_audit},
     {"initial.field", "initial.length",
      [](const Scene& s, const Spec&) { return is_manufactured(s) && !is_closed_by_symmetry(s); },
      "needs kind = \"symmetric\" on all six faces of a box"},

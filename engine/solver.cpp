@@ -6,7 +6,9 @@
 #include <span>
 
 #include "engine/angular_momentum.hpp"
+#include "engine/book_stage.hpp"
 #include "engine/current_areas.hpp"
+#include "engine/forces.hpp"
 #include "engine/incompressible.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
@@ -35,31 +37,6 @@ std::span<const RungeKuttaStage> stages_of(const Scene& scene) {
   if (scene.physics.formulation == Formulation::pFp) return projected_rk2;
   if (scene.time.integrator == Integrator::tvd_rk2) return tvd_rk2;
   return ssp_rk3;
-}
-
-/// Force on each corner of the loaded faces at time t, on the stage's geometry; returns their sum [N].
-Vec3 compute_loads(Simulation& s, const double* U, double t) {
-  Vec3 sum{};
-  std::fill(s.state.loads.begin(), s.state.loads.end(), 0.0);
-  for (const LoadedFace& f : s.domain.boundary.loaded) {
-    const double factor = value_at(s.domain.boundary.conditions[static_cast<std::size_t>(f.condition)].time, t);
-    Vec3 force = f.corner_force;
-    if (f.kind
-        == BoundaryKind::
-            pressure) {  // -p a/3, a = (x_b - x_a) x (x_c - x_a)/2: the resultant of a closed surface is exactly zero
-      double e[2][3];
-      for (int k = 0; k < 3; ++k)
-        for (int j = 0; j < 2; ++j)
-          e[j][k] = U[row::U * f.node[j + 1] + 4 * (k + 1) + 3] - U[row::U * f.node[0] + 4 * (k + 1) + 3];
-      for (int k = 0; k < 3; ++k)
-        force[k] = -f.pressure / 6 * (e[0][(k + 1) % 3] * e[1][(k + 2) % 3] - e[0][(k + 2) % 3] * e[1][(k + 1) % 3]);
-    }
-    for (int k = 0; k < 3; ++k) {
-      s.state.loads[static_cast<std::size_t>(4 * f.slot + k)] += factor * force[k];
-      sum[k] += 3 * factor * force[k];
-    }
-  }
-  return sum;
 }
 
 bool broken(const Simulation& s) {
@@ -94,13 +71,12 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk) {
   const auto lists = d.order.lists();
   const EdgeArrays edges_of_flux = flux_edges(s);
   const CornerArrays corners_of_flux = flux_corners(s);
-  const double t = u.t + rk.at * u.dt;
   const double* arms = u.U[0].data();  // of angular momentum, TVD-RK2: x^n, then x^(n+1)
 
-  if (!d.boundary.loaded.empty()) {
-    const Vec3 sum = compute_loads(s, rows.U_stage, t);
-    for (int i = 0; i < 3; ++i) s.books.impulse[i] += rk.mean * u.dt * sum[i];
-  }
+  s.team.clock.time("forces", [&] {
+    find_forces(s, rows.U_stage, u.t + rk.at * u.dt);
+    s.books.external_work += rk.mean * u.dt * power_of_loads(s, rows.W);
+  });
   if (has_current_areas(physics.description))
     s.team.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
   if (neighbours)
@@ -123,14 +99,11 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk) {
       s.team.part_sums[p] = functions.edge_flux(part, edges_of_flux, corners_of_flux, lists, mine, k, scratch);
       functions.accumulate_update(part, edges, lists, mine, k, d.boundary.constraints.data(), u.reactions.data(),
                                   scratch);
-      if (!d.manufactured.waves.empty())
-        add_body_force(d.manufactured, *d.scene, k.material, part, t, k.dt, mine.U_new);
       if (keeps) sum_moments(s, rows, arms, p, scratch);
       if (!projected) u.reports[p] = stress_of_part(d, p, mine, k, scratch);
     });
   });
-  book_loads(s, rows, rk.mean * u.dt);
-  if (d.scene->monitor.energy) s.team.clock.time("monitor.energy", [&] { audit_stage(s, rows, rk.mean * u.dt); });
+  if (d.scene->monitor.energy) s.team.clock.time("monitor.energy", [&] { book_dissipation(s, rows, rk.mean * u.dt); });
   if (keeps && !broken(s))
     s.team.clock.time("keep_angular_momentum", [&] {
       s.books.angular_momentum_work += rk.mean * u.dt * keep_angular_momentum(s, rows, k, arms);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "engine/compensated_sum.hpp"
+#include "engine/forces.hpp"
 #include "engine/initial.hpp"
 #include "engine/monitor.hpp"
 #include "engine/parts.hpp"
@@ -85,7 +86,6 @@ void open_books(Simulation& s) {
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   b.initial_energy = e.kinetic + e.strain;
-  b.initial_fallen = e.fallen;
   b.initial_momentum = m.linear;
   b.initial_angular_momentum = m.angular;
 }
@@ -119,6 +119,7 @@ Simulation start(Domain domain, Team team) {
     s.books.lost_at_start = constrain_start(s.domain, s.state);
     find_stress(s);
     open_books(s);
+    find_forces(s, s.state.U[0].data(), 0, true);
     if (s.domain.scene->monitor.involutions) s.state.initial_mismatch = gradient_mismatch(s);
   });
   return s;

@@ -41,6 +41,7 @@ Rows stage_rows(const Domain& d, State& u, int from, int to) {
   r.rho = d.mixture.rho.data();
   r.dJ = u.current.dJ.data();
   r.loads = u.loads.data();
+  r.force = u.force.empty() ? nullptr : u.force.data();
   r.U_old = u.U[0].data();
   r.U_stage = u.U[from].data();
   r.H_old = u.H[0].data();

@@ -25,6 +25,7 @@ struct State {
   Aligned<double> L;                   // limiter (limited) or pseudo-Laplacian (jst)
   Aligned<double> plastic;             // hencky_j2
   Aligned<double> loads;               // [N] 4 a loaded face
+  Aligned<double> force;               // [N] 4 a node: gravity, a manufactured motion's body force
   Aligned<double> reactions;           // reaction_row a constraint, of the last stage
   Aligned<double> mean_reactions;      // mean of the last step's stages
   Aligned<double> initial_mismatch;    // [-] monitor.involutions: F - grad x at the start, 9 a row
@@ -75,6 +76,7 @@ void each_array(const Domain& d, SomeState& u, Visit visit) {
   say("plastic", Keep::unknown, row::plastic * nodes * static_cast<std::size_t>(d.mixture.state_sets),
       has_plasticity(*d.scene), u.plastic);
   say("loads", Keep::work, 4 * d.boundary.slot_nodes.size(), true, u.loads);
+  say("force", Keep::carried, 4 * nodes, has_forces_on_nodes(d), u.force);
   say("reactions", Keep::work, reaction_row * constraints, true, u.reactions);
   say("mean_reactions", Keep::carried, reaction_row * constraints, true, u.mean_reactions);
   say("initial_mismatch", Keep::carried, 9 * nodes, d.scene->monitor.involutions, u.initial_mismatch);

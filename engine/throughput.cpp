@@ -32,16 +32,17 @@ std::optional<double> law_flops(const MaterialSpec& s, Formulation choice) {
 std::optional<Throughput> throughput(const Simulation& s, double update_bandwidth) {
   const PhysicsSpec& p = s.domain.scene->physics;
   const bool counted = p.formulation != Formulation::pFp && p.description == Description::total
-                       && s.domain.mixture.empty() && s.domain.manufactured.waves.empty()
-                       && p.reconstruction != Reconstruction::constant && !p.keep_angular_momentum && p.parting == 0;
+                       && s.domain.mixture.empty() && p.reconstruction != Reconstruction::constant
+                       && !p.keep_angular_momentum && p.parting == 0;
   const auto law = !counted ? std::nullopt : law_flops(s.domain.scene->material, p.formulation);
   double seconds = 0;
   for (const SweepTime& sweep : s.team.clock.sweeps)
     if (sweep.sweep == "gradient" || sweep.sweep == "flux_update_stress") seconds += sweep.seconds;
   if (!law || s.state.step == 0 || !(seconds > 0)) return std::nullopt;
-  const Work step = step_work(p, Sizes(s.domain.order), *law,
-                              s.domain.scene->time.integrator == Integrator::tvd_rk2 ? 2 : 3,
-                              s.domain.scene->monitor.energy);
+  const int stages = s.domain.scene->time.integrator == Integrator::tvd_rk2 ? 2 : 3;
+  const Sizes sizes(s.domain.order);
+  Work step = step_work(p, sizes, *law, stages, s.domain.scene->monitor.energy);
+  if (!s.state.force.empty()) step = step + stages * force_work(sizes);
   const double nodes = s.domain.order.nodes, steps = static_cast<double>(s.state.step),
                rate = steps * step.bytes / seconds;
   Throughput out{step.bytes / nodes, step.flops / nodes, 1e-9 * rate, 1e-9 * steps * step.flops / seconds, {}, {}};

@@ -41,8 +41,7 @@ double tet_ratio(const Simulation& s, const std::array<int, 4>& tet) {
   Vec3 X[4], x[4];
   for (std::size_t v = 0; v < 4; ++v) {
     X[v] = s.domain.mesh->X[static_cast<std::size_t>(tet[v])];
-    const std::size_t r = static_cast<std::size_t>(s.domain.order.row_of[static_cast<std::size_t>(tet[v])]);
-    for (std::size_t i = 0; i < 3; ++i) x[v][i] = s.state.U[0][row::U * r + 4 * (i + 1) + 3];
+    x[v] = state_of(s, tet[v]).position();
   }
   return tet_volume(x[0], x[1], x[2], x[3]) / tet_volume(X[0], X[1], X[2], X[3]);
 }
@@ -63,11 +62,8 @@ Breakdown inverted_tet(const Simulation& s) {
   const auto& n = mesh.tets[worst];
   Vec3 X{}, x{};
   for (const int node : n) {
-    const std::size_t r = static_cast<std::size_t>(s.domain.order.row_of[static_cast<std::size_t>(node)]);
-    for (std::size_t i = 0; i < 3; ++i) {
-      X[i] += 0.25 * mesh.X[static_cast<std::size_t>(node)][i];
-      x[i] += 0.25 * s.state.U[0][row::U * r + 4 * (i + 1) + 3];
-    }
+    add(X, scaled(mesh.X[static_cast<std::size_t>(node)], 0.25));
+    add(x, scaled(state_of(s, node).position(), 0.25));
   }
   return {n[0],
           fmt::format("tet {} (nodes {}) in region {} is inside out, its volume {:.3g} of the undeformed one{}: at X = "
@@ -152,8 +148,7 @@ void warn(Simulation& s, std::string_view cause, std::string text) {
 
 std::optional<Breakdown> ruin(Simulation& s) {
   const MonitorSpec& monitor = s.domain.scene->monitor;
-  const bool body_force_is_booked = s.domain.manufactured.waves.empty();
-  if (auto grown = body_force_is_booked ? energy_growth(s) : std::nullopt) {
+  if (auto grown = energy_growth(s)) {
     if (!monitor.energy || monitor.energy_growth == EnergyGrowth::stop) return Breakdown{-1, *grown, "energy_growth"};
     warn(s, "energy_growth", *grown);
   }

@@ -9,7 +9,6 @@ namespace nanson {
 
 struct Energies {
   double kinetic = 0, strain = 0;  // [J]
-  double fallen = 0;               // [J] sum of mass g . x: its growth is the work of the body force
 };
 
 struct Extrema {

@@ -43,7 +43,7 @@ struct Carried {
 
 namespace bytes {
 inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, dP = 96, GP = 288, L = 32, lambda = 32,
-                        step_length = 8;
+                        step_length = 8, force = 32;
 inline constexpr double lists = 12;                          // out, in, corner
 inline constexpr double edge = 28, edge_a = 4, in_edge = 8;  // b, C; a; edge number and first node
 inline constexpr double corner = 32, corner_load = 4;        // b, c, C; load
@@ -120,6 +120,9 @@ inline Work accumulate_update_work(const Carried& c, const Sizes& s, bool alone)
                + (c.corrected ? half_edges * 18 + s.nodes * 18 : 0);  // H : G; F x G; correction of G
   return out;
 }
+
+/// What acts from outside on nodes, as the update reads it.
+inline Work force_work(const Sizes& s) { return {s.nodes * bytes::force, 0}; }
 
 /// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by engine/counted.hpp.
 inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {

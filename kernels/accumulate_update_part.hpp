@@ -14,17 +14,17 @@ struct NodeDensity {
   double operator[](int n) const { return rho[n]; }
 };
 
-/// Force of every node [N] with the J source [m^3/s] in lane 3: + out-edges, - in-edges, + corners, + weight. With a flux correction also
+/// Force of every node [N] with the J source [m^3/s] in lane 3: what acts from outside, + out-edges, - in-edges, + corners. With a flux correction also
 /// the correction of the velocity gradient, sum_b q (x) C / Omega (method, section 14).
-template <GradientCorrection correction, class Density>
+template <GradientCorrection correction>
 NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeLists& lists, const Rows& rows,
-                          const Coefficients& k, Density rho, const Scratch& scratch) {
+                          const Scratch& scratch) {
   constexpr bool corrected = correction == GradientCorrection::found;
   constexpr int width = corrected ? 8 : 4;
   const double* buffer = scratch.edge;
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    const double inverse_volume = rows.X[row::X * n + 3], mass = rho[n] / inverse_volume;
-    Vec4 f = Vec4{k.g[0] * mass, k.g[1] * mass, k.g[2] * mass, 0.0};
+    const double inverse_volume = rows.X[row::X * n + 3];
+    Vec4 f = rows.force ? load4(rows.force + 4 * n) : Vec4{};
     Vec8 g[3] = {concat(f, Vec4{})};  // {force | column 0 of dG}, {unused | column 1}, {unused | column 2}
     const auto add = [&](auto sense, std::ptrdiff_t e) {
       const double* r = buffer + width * (e - part.edge_begin);
@@ -132,7 +132,7 @@ void accumulate_update_part(const Part& part, const EdgeArrays& edges, const Nod
                             const Coefficients& k, const Constraint* constraints, double* reactions,
                             const Scratch& scratch) {
   const auto with = [&](auto rho) {
-    gather<correction>(part, edges, lists, rows, k, rho, scratch);
+    gather<correction>(part, edges, lists, rows, scratch);
     constrain(part, rows, k, rho, constraints, reactions, scratch);
     if (rows.dJ) update<formulation, correction, Areas::current>(part, rows, k, rho, scratch);
     else update<formulation, correction, Areas::undeformed>(part, rows, k, rho, scratch);

@@ -117,8 +117,9 @@ struct Rows {
   double* GP;
   double* L;
   const double* lambda;
-  const double* rho;    // [kg/m^3] a node, several materials only
-  const double* loads;  // [N] 4 a loaded face: the force on each of its corners
+  const double* rho;              // [kg/m^3] a node, several materials only
+  const double* loads;            // [N] 4 a loaded face: the force on each of its corners
+  const double* force = nullptr;  // [N] {f, 0} a node: what acts on nodes from outside; null without such forces
   double* U_new;
   double* H_new;
   double* W_new;
@@ -161,7 +162,6 @@ struct Coefficients {
   EdgeChoices edge;
   bool current_areas = false;  // rows of the Cauchy stress in place of H
   bool sweeps_J = false;       // W is {v, J} in place of {v, Sigma_J} (jst)
-  double g[3] = {};            // [m/s^2] body force
   double old_weight = 0, stage_weight = 1,
          dt = 0;         // U_new = old_weight U_old + stage_weight U_stage + dt dU/dt; dt [s]
   bool streams = false;  // the mesh is larger than the caches: rows that only other sweeps read are written past them

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/book_stage.hpp"
 #include "engine/current_areas.hpp"
 #include "engine/fields.hpp"
 #include "engine/monitor.hpp"
