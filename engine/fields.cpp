@@ -3,9 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+#include <stdexcept>
 
 #include "engine/compensated_sum.hpp"
 #include "engine/initial.hpp"
@@ -42,11 +44,16 @@ Tensor<double> F_of(const double* U) {
   return F;
 }
 
+/// J as it is carried, det F where none is.
+double carried_J(const Simulation& s, int node) {
+  const double* U = U_row(s, node);
+  return evolves_J(s.domain.scene->physics.formulation) ? U[3] : determinant(F_of(U), cofactor(F_of(U)));
+}
+
 /// Cauchy stress P F^T / J with the J that the scheme carries [Pa].
 Tensor<double> cauchy(const Simulation& s, int node) {
-  const double* U = U_row(s, node);
-  const Tensor<double> F = F_of(U);
-  const double J = evolves_J(s.domain.scene->physics.formulation) ? U[3] : determinant(F, cofactor(F));
+  const Tensor<double> F = F_of(U_row(s, node));
+  const double J = carried_J(s, node);
   Tensor<double> sigma{};
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -66,45 +73,90 @@ double von_mises(const Tensor<double>& a) {
   return std::sqrt(1.5 * dev2);
 }
 
-}  // namespace
-
-void field_at(const Simulation& s, std::string_view name, int node, double* out) {
-  const double *U = U_row(s, node), *PH = PH_row(s, node);
-  const Vec3& X = s.domain.mesh->X[static_cast<std::size_t>(node)];
-  for (int k = 0; k < 3; ++k) {
-    if (name == "x") out[k] = U[4 * (k + 1) + 3];
-    if (name == "displacement") out[k] = U[4 * (k + 1) + 3] - X[k];
-    if (name == "velocity") out[k] = U[k];
-  }
-  for (int k = 0; k < 9; ++k) {
-    if (name == "P") out[k] = P_at(s, node, k / 3, k % 3);
-    if (name == "H") out[k] = PH[8 * (k % 3) + 4 + k / 3];
-    if (name == "H" && has_current_areas(s.domain.scene->physics.description))
-      out[k] = cofactor(F_of(U))[k / 3][k % 3];  // sigma stands in its place
-    if (name == "F") out[k] = U[4 * (k % 3 + 1) + k / 3];
-  }
-  const auto detF = [&] {
-    const auto F = F_of(U);
-    return determinant(F, cofactor(F));
-  };
-  if (name == "detF") out[0] = detF();
-  if (name == "J") out[0] = evolves_J(s.domain.scene->physics.formulation) ? U[3] : detF();
-  if (name == "pressure") {
-    const auto a = cauchy(s, node);
-    out[0] = -(a[0][0] + a[1][1] + a[2][2]) / 3;
-  }
-  if (name == "plastic_strain") out[0] = plastic_strain(s, node);
-  if (name == "von_mises") out[0] = von_mises(cauchy(s, node));
+void put(const Tensor<double>& a, double* out) {
+  for (int k = 0; k < 9; ++k) out[k] = a[k / 3][k % 3];
 }
 
-std::vector<float> field(const Simulation& s, const FieldName& name) {
-  std::vector<float> values(static_cast<std::size_t>(s.domain.order.nodes * name.components));
+constexpr Field table[] = {
+    {"x", 3, "m", "current position",
+     [](const Simulation& s, int node, double* out) {
+       for (int k = 0; k < 3; ++k) out[k] = U_row(s, node)[4 * (k + 1) + 3];
+     }},
+    {"displacement", 3, "m", "x - X, from the undeformed position",
+     [](const Simulation& s, int node, double* out) {
+       const Vec3& X = s.domain.mesh->X[static_cast<std::size_t>(node)];
+       for (int k = 0; k < 3; ++k) out[k] = U_row(s, node)[4 * (k + 1) + 3] - X[static_cast<std::size_t>(k)];
+     }},
+    {"velocity", 3, "m/s", "linear momentum over the undeformed density",
+     [](const Simulation& s, int node, double* out) {
+       for (int k = 0; k < 3; ++k) out[k] = U_row(s, node)[k];
+     }},
+    {"pressure", 1, "Pa", "-tr(sigma)/3, positive in compression",
+     [](const Simulation& s, int node, double* out) {
+       const auto sigma = cauchy(s, node);
+       out[0] = -(sigma[0][0] + sigma[1][1] + sigma[2][2]) / 3;
+     }},
+    {"P", 9, "Pa",
+     "first Piola-Kirchhoff stress P_iI, force per undeformed area; row-major: P_11 P_12 P_13 P_21 ...; "
+     "the Cauchy stress is sigma = P F^T / J with the carried J",
+     [](const Simulation& s, int node, double* out) {
+       for (int k = 0; k < 9; ++k) out[k] = P_at(s, node, k / 3, k % 3);
+     }},
+    {"F", 9, "-", "deformation gradient F_iI = dx_i/dX_I as it is carried, row-major",
+     [](const Simulation& s, int node, double* out) { put(F_of(U_row(s, node)), out); }},
+    {"H", 9, "-", "area map H_iI (the cofactor of F; carried by pFHJ only), row-major",
+     [](const Simulation& s, int node, double* out) {
+       if (has_current_areas(s.domain.scene->physics.description))  // sigma stands in its place
+         return put(cofactor(F_of(U_row(s, node))), out);
+       for (int k = 0; k < 9; ++k) out[k] = PH_row(s, node)[8 * (k % 3) + 4 + k / 3];
+     }},
+    {"J", 1, "-", "volume map as it is carried, det F where it is not (pF, pFp)",
+     [](const Simulation& s, int node, double* out) { out[0] = carried_J(s, node); }},
+    {"detF", 1, "-", "determinant of F; below or at 0: turned inside out",
+     [](const Simulation& s, int node, double* out) {
+       const auto F = F_of(U_row(s, node));
+       out[0] = determinant(F, cofactor(F));
+     }},
+    {"von_mises", 1, "Pa", "sqrt(3/2 s:s) of the deviator s of the Cauchy stress",
+     [](const Simulation& s, int node, double* out) { out[0] = von_mises(cauchy(s, node)); }},
+    {"plastic_strain", 1, "-", "equivalent plastic strain (law hencky_j2 only)",
+     [](const Simulation& s, int node, double* out) { out[0] = plastic_strain(s, node); }},
+};
+
+}  // namespace
+
+std::span<const Field> output_fields() { return table; }
+
+const Field* find_field(std::string_view name) {
+  const auto at = std::ranges::find(table, name, &Field::name);
+  return at == std::end(table) ? nullptr : at;
+}
+
+const Field& field_named(std::string_view name) {
+  if (const Field* f = find_field(name)) return *f;
+  throw std::invalid_argument(fmt::format("no field is called {}", name));
+}
+
+std::vector<std::string_view> output_field_names() {
+  std::vector<std::string_view> names;
+  for (const Field& f : table) names.push_back(f.name);
+  return names;
+}
+
+std::string component_ending(const Field& f, int c) {
+  if (f.components == 1) return "";
+  if (f.components == 3) return fmt::format("_{}", "xyz"[c]);
+  return fmt::format("_{}{}", c / 3 + 1, c % 3 + 1);
+}
+
+std::vector<float> field(const Simulation& s, const Field& f) {
+  std::vector<float> values(static_cast<std::size_t>(s.domain.order.nodes * f.components));
 #pragma omp parallel for schedule(static) num_threads(s.team.threads)
   for (int n = 0; n < s.domain.order.nodes; ++n) {
     double v[9];
-    field_at(s, name.name, n, v);
-    for (int k = 0; k < name.components; ++k)
-      values[static_cast<std::size_t>(n * name.components + k)] = static_cast<float>(v[k]);
+    f.at(s, n, v);
+    for (int k = 0; k < f.components; ++k)
+      values[static_cast<std::size_t>(n * f.components + k)] = static_cast<float>(v[k]);
   }
   return values;
 }
@@ -138,12 +190,12 @@ ProbePlace place_probe(const Mesh& mesh, const Vec3& at) {
   return best;
 }
 
-void probe(const Simulation& s, const ProbePlace& place, const FieldName& name, double* out) {
-  for (int c = 0; c < name.components; ++c) out[c] = 0;
+void probe(const Simulation& s, const ProbePlace& place, const Field& f, double* out) {
+  for (int c = 0; c < f.components; ++c) out[c] = 0;
   for (int k = 0; k < 4; ++k) {
     double v[9];
-    field_at(s, name.name, place.nodes[static_cast<std::size_t>(k)], v);
-    for (int c = 0; c < name.components; ++c) out[c] += place.weight[static_cast<std::size_t>(k)] * v[c];
+    f.at(s, place.nodes[static_cast<std::size_t>(k)], v);
+    for (int c = 0; c < f.components; ++c) out[c] += place.weight[static_cast<std::size_t>(k)] * v[c];
   }
 }
 

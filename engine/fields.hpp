@@ -5,13 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "engine/output_field.hpp"
 #include "engine/simulation.hpp"
 
 namespace nanson {
 
-/// A field of field_names at one mesh node; tensors row by row. Units as in the table.
-void field_at(const Simulation& s, std::string_view name, int node, double* out);
-std::vector<float> field(const Simulation& s, const FieldName& name);
+/// At all nodes of the mesh, the components of a node together.
+std::vector<float> field(const Simulation& s, const Field& f);
 
 /// A probe's tet and its barycentric weights there; the nearest node when no tet holds the point.
 struct ProbePlace {
@@ -21,7 +21,7 @@ struct ProbePlace {
   Vec3 at{};  // [m] where it really is
 };
 ProbePlace place_probe(const Mesh& mesh, const Vec3& at);
-void probe(const Simulation& s, const ProbePlace& place, const FieldName& name, double* out);
+void probe(const Simulation& s, const ProbePlace& place, const Field& f, double* out);
 
 /// Volume-weighted relative L1 and L2 errors of p1 and P11 against the exact field at t, and of P11 against its size at t = 0 (method, section 12).
 std::map<std::string, double> exact_errors(const Simulation& s);

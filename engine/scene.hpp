@@ -214,22 +214,4 @@ inline std::span<const MaterialSpec> materials_of(const Scene& s) {
   return s.materials.empty() ? std::span(&s.material, 1) : std::span(s.materials);
 }
 
-/// Output field names with their number of components, in the one table that reader, writer and solver share.
-struct FieldName {
-  std::string_view name;
-  int components;
-  std::string_view unit;
-};
-inline constexpr std::array<FieldName, 11> field_names{{{"x", 3, "m"},
-                                                        {"displacement", 3, "m"},
-                                                        {"velocity", 3, "m/s"},
-                                                        {"pressure", 1, "Pa"},
-                                                        {"P", 9, "Pa"},
-                                                        {"F", 9, "-"},
-                                                        {"H", 9, "-"},
-                                                        {"J", 1, "-"},
-                                                        {"detF", 1, "-"},
-                                                        {"von_mises", 1, "Pa"},
-                                                        {"plastic_strain", 1, "-"}}};
-
 }  // namespace nanson

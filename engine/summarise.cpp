@@ -99,7 +99,7 @@ Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const s
   for (const Probe& q : probes)
     for (const std::string& name : q.spec.fields) {
       double v[9];
-      const FieldName& f = field_named(name);
+      const Field& f = field_named(name);
       probe(s, q.place, f, v);
       out.probes[q.spec.name][name].assign(v, v + f.components);
     }

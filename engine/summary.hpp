@@ -1,9 +1,11 @@
 // Everything that summary.json holds, as plain data; an empty optional is written as null.
 #pragma once
-#include <array>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 #include "engine/watch.hpp"
@@ -39,15 +41,11 @@ struct Throughput {
   std::optional<double> update_GB_s, bandwidth_share;       // measured after the run, not with --quiet; share of it [-]
 };
 
-/// The errors against an exact solution, where there is one.
-inline constexpr std::array<const char*, 6> error_names{"p1_L1", "p1_L2", "P11_L1", "P11_L2", "P11_L1_t0", "P11_L2_t0"};
-
 struct Summary {
   std::string status = "done";  // done | breakdown | stopped
   std::string reason;           // why it did not end as asked; empty when done
   std::string cause;            // one word for the reason (solver.hpp); empty when done
-  std::string scene, formulation, material, description = "total", stabilisation = "upwind", reconstruction,
-                                            flux_correction;
+  std::string scene, formulation, material, description, stabilisation, reconstruction, flux_correction;
   double parting = 0;  // [-] M/mu
   std::string boundary_flux, upwind_metric, pressure_jump, integrator, step, split;
   long nodes = 0, tets = 0, edges = 0, steps = 0;
@@ -75,5 +73,17 @@ struct Summary {
   std::optional<ProjectionSummary> projection;  // pFp only
   std::optional<Throughput> throughput;         // where the model counts
 };
+
+/// NaN is written as null, std::monostate not at all.
+using SummaryValue = std::variant<std::monostate, double, long, bool, std::string, std::vector<std::string>>;
+
+/// An entry of summary.json: the one table of them, from which the file is written and a study knows what it may ask for. Besides these stand
+/// probes.PROBE.FIELD (a list), and setup.NAME and sweeps.NAME [s].
+struct SummaryEntry {
+  std::string_view name;            // energy.closure: closure in the table energy
+  std::string_view unit, sentence;  // the unit is empty where the entry is no number
+  SummaryValue (*value)(const Summary&);
+};
+std::span<const SummaryEntry> summary_entries();
 
 }  // namespace nanson

@@ -3,13 +3,17 @@
 #include <omp.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstring>
 
 #include "io/check.hpp"
+#include "io/keys.hpp"
+#include "io/new_scene.hpp"
 #include "io/print.hpp"
 #include "io/provenance.hpp"
 #include "io/results/results_folder.hpp"
 #include "io/run.hpp"
+#include "io/scene/words.hpp"
 #include "io/study/run_study.hpp"
 
 namespace {
@@ -21,8 +25,25 @@ std::string version_text() {
 
 int list_errors(const std::vector<std::string>& errors) {
   for (const std::string& e : errors) nanson::print(stderr, "{}\n", e);
-  nanson::print(stderr, "{} error{}: nothing was run or written\n", errors.size(), errors.size() == 1 ? "" : "s");
+  nanson::print(stderr, "{} error{}: nothing was run or written (nanson keys tells what may be)\n", errors.size(),
+                errors.size() == 1 ? "" : "s");
   return 2;
+}
+
+/// The exit code of a verb whose result is its text.
+int told(int code) {
+  if (const int lost = nanson::lost_output(); lost != 0)
+    throw std::runtime_error(fmt::format("the standard output could not be written: {}", std::strerror(lost)));
+  return code;
+}
+
+/// False, and said, when the first word is no verb: CLI11 would only ask for a subcommand.
+bool is_known_verb(const CLI::App& app, std::string_view word) {
+  std::vector<std::string> verbs;
+  for (const CLI::App* verb : app.get_subcommands({})) verbs.push_back(verb->get_name());
+  if (word.starts_with('-') || std::find(verbs.begin(), verbs.end(), word) != verbs.end()) return true;
+  nanson::print(stderr, "{}: {}\n", word, nanson::unknown_word("verb", word, verbs));
+  return false;
 }
 
 }  // namespace
@@ -31,6 +52,9 @@ int main(int argc, char** argv) {
   nanson::open_standard_streams();
   CLI::App app{"nanson: fast large-strain solid dynamics on tetrahedra"};
   app.set_version_flag("--version", version_text());
+  app.footer(
+      "A first scene: nanson new NAME, then nanson run NAME.toml. In a source folder also ./nanson test, ./nanson "
+      "bench.");
   app.require_subcommand(1);
   std::string scene;
   std::vector<std::string> settings;
@@ -56,6 +80,20 @@ int main(int argc, char** argv) {
   study->add_option("--out", out, "folder for the results");
   CLI::App* check = common(
       app.add_subcommand("check", "mesh quality, step, memory and estimated time; writes nothing"));
+  CLI::App* keys = app.add_subcommand("keys", "what scenes and studies may say and what runs write");
+  nanson::KeysOptions asked;
+  keys->add_option("NAME", asked.name, "a section or a key, e.g. boundary, material.density, output; all without it");
+  keys->add_flag("--study", asked.study, "the keys of a study");
+  keys->add_flag("--markdown", asked.markdown, "the reference of configs/README.md");
+  keys->add_flag("--json", asked.json, "a JSON Schema for editors");
+  keys->add_flag("--settings", asked.settings, "what --set can be completed to");
+  CLI::App* new_scene = app.add_subcommand("new", "write NAME.toml, a small commented scene to start from");
+  new_scene->add_option("NAME", scene, "name of the scene")->required();
+  if (argc == 1) {
+    nanson::print(stderr, "{}", app.help());
+    return 2;
+  }
+  if (!is_known_verb(app, argv[1])) return 2;
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
@@ -63,6 +101,8 @@ int main(int argc, char** argv) {
   }
   try {
     std::vector<std::string> errors;
+    if (keys->parsed()) return told(nanson::print_keys(asked));
+    if (new_scene->parsed()) return nanson::write_new_scene(scene);
     if ((study->parsed() ? study : run)->count("--out") > 0) options.out = out;
     if (study->parsed()) {
       const int code = nanson::run_study(scene, options.out, errors);
@@ -71,10 +111,7 @@ int main(int argc, char** argv) {
     const auto loaded = nanson::load(scene, settings, errors);
     if (!loaded) return list_errors(errors);
     if (!check->parsed()) return nanson::run_scene(*loaded, options);
-    const int code = nanson::check_scene(*loaded, options.threads);
-    if (const int lost = nanson::lost_output(); lost != 0)
-      throw std::runtime_error(fmt::format("the standard output could not be written: {}", std::strerror(lost)));
-    return code;
+    return told(nanson::check_scene(*loaded, options.threads));
   } catch (const nanson::FolderError& e) {
     nanson::print(stderr, "{}\n", e.what());
     return 2;

@@ -77,8 +77,8 @@ void print_start(const RunOptions& options, Simulation& s, const std::vector<Pro
   say(options, fmt::format("results: {}", folder.string()));
 }
 
-std::vector<FieldName> fields_of(const Scene& scene) {
-  std::vector<FieldName> fields;
+std::vector<Field> fields_of(const Scene& scene) {
+  std::vector<Field> fields;
   for (const std::string& name : scene.output.fields) fields.push_back(field_named(name));
   return fields;
 }
@@ -99,7 +99,8 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   const Provenance from = provenance();
   FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.team.threads, scene.text),
                      scene.output.compress);
-  HistoryWriter history(folder.path() / "history.csv", history_columns(s, probes));
+  const std::vector<HistoryColumn> columns = history_columns(s, probes);
+  HistoryWriter history(folder.path() / "history.csv", columns);
   Progress progress(0, scene.time.end, options.quiet);
   catch_stop_signals();
   std::size_t warned = 0;
@@ -110,9 +111,9 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
     for (; warned < now.watch.warnings.size(); ++warned)
       progress.message("warning: " + now.watch.warnings[warned].text);
   };
-  observer.on_history = [&](const Simulation& now) { history.row(history_row(now, probes)); };
+  observer.on_history = [&](const Simulation& now) { history.row(history_row(now, columns)); };
   observer.on_frame = [&](const Simulation& now) {
-    fields.frame(now.state.t, now.state.step, now.breakdown.has_value(), [&](const FieldName& f) {
+    fields.frame(now.state.t, now.state.step, now.breakdown.has_value(), [&](const Field& f) {
       buffer = field(now, f);
       return std::span<const float>(buffer);
     });

@@ -70,13 +70,13 @@ void create_frames(hid_t file) {
   hdf5::create_group(file, "frames", creation);
 }
 
-Dims shape(const FieldName& field, std::size_t rows) {
+Dims shape(const Field& field, std::size_t rows) {
   return field.components == 1 ? Dims{rows} : Dims{rows, hsize_t(field.components)};
 }
 
 /// At most 65536 rows, so that a chunk stays small beside a frame. But compressed chunks hold whole frames as far as possible (HDF5 allows 4 GiB): a chunk
 /// that two frames share would change its size with the second, move, and be lost with a run that is killed just then.
-hsize_t rows_in_chunk(const FieldName& field, std::size_t nodes, int compress) {
+hsize_t rows_in_chunk(const Field& field, std::size_t nodes, int compress) {
   const std::size_t most = compress > 0 ? (std::size_t{1} << 30) / (sizeof(float) * std::size_t(field.components))
                                         : 65536;
   return std::min(nodes, most);
@@ -112,7 +112,7 @@ constexpr std::array step_rows{"PartOffsets", "PointOffsets", "CellDataOffsets/r
 constexpr std::array step_columns{"CellOffsets", "ConnectivityIdOffsets"};  // of shape [steps, 1]
 constexpr hsize_t steps_in_chunk = 256;
 
-void create_series(hid_t vtkhdf, const std::vector<FieldName>& fields, std::size_t nodes, int compress) {
+void create_series(hid_t vtkhdf, const std::vector<Field>& fields, std::size_t nodes, int compress) {
   const Handle data = hdf5::create_group(vtkhdf, "PointData"), steps = hdf5::create_group(vtkhdf, "Steps");
   const Handle offsets = hdf5::create_group(steps, "PointDataOffsets"),
                cell_offsets = hdf5::create_group(steps, "CellDataOffsets");
@@ -131,7 +131,7 @@ void create_series(hid_t vtkhdf, const std::vector<FieldName>& fields, std::size
   hdf5::set_attribute<int64_t>(steps, "NSteps", 0);
 }
 
-void append_step(hid_t file, const std::vector<FieldName>& fields, std::size_t nodes, std::size_t index, double t) {
+void append_step(hid_t file, const std::vector<Field>& fields, std::size_t nodes, std::size_t index, double t) {
   const Handle steps = hdf5::open_group(file, "/VTKHDF/Steps");
   const auto put = [&](const std::string& name, int64_t value) {
     hdf5::write_rows<int64_t>(steps, name, index, 1, std::array{value});
@@ -145,7 +145,7 @@ void append_step(hid_t file, const std::vector<FieldName>& fields, std::size_t n
 
 }  // namespace
 
-FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields,
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<Field> fields,
                          const Attributes& attributes, int compress)
     : path_(folder / "run.vtkhdf"),
       fields_(std::move(fields)),

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "engine/mesh/mesh.hpp"
-#include "engine/scene.hpp"
+#include "engine/output_field.hpp"
 
 namespace nanson {
 
@@ -24,10 +24,10 @@ class FieldWriter {
  public:
   using Attributes = std::vector<std::pair<std::string, std::string>>;
   /// A field's values in mesh order, the components of a node together; they must live until the next call.
-  using GetField = std::function<std::span<const float>(const FieldName&)>;
+  using GetField = std::function<std::span<const float>(const Field&)>;
 
   /// Creates run.vtkhdf (one that exists is an error) and run.xdmf in a folder that exists. `attributes` go to "/"; `compress` is a gzip level, 0 for none.
-  FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<FieldName> fields,
+  FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<Field> fields,
               const Attributes& attributes, int compress);
 
   /// Appends a frame; the file is closed again afterwards. Throws std::runtime_error with the reason when it cannot be written: the frames before stay
@@ -40,7 +40,7 @@ class FieldWriter {
   void append(double t, long step, bool breakdown, const GetField& get);
 
   std::filesystem::path path_;
-  std::vector<FieldName> fields_;
+  std::vector<Field> fields_;
   std::size_t nodes_, tets_;
   int compress_;
   int patience_ = most_patience;  // [ms] to wait for another program that holds the file

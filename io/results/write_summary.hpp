@@ -9,11 +9,11 @@
 
 namespace nanson {
 
-/// JSON text; what is missing or not finite is null. Keys stand in alphabetical order.
+/// JSON text; what is missing or not finite is null.
 std::string summary_json(const Summary& summary, const Provenance& from);
 
 /// Dotted names of all numbers that a summary may hold, "energy.closure", but for probes and sweeps.
-std::vector<std::string> summary_number_keys();
+std::vector<std::string> summary_numbers();
 
 /// Throws std::runtime_error with the reason when it cannot be written; an older file then stays as it was.
 void write_summary(const std::filesystem::path& path, const Summary& summary, const Provenance& from);

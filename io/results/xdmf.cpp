@@ -23,7 +23,7 @@ std::string_view attribute_type(int components) {
 
 }  // namespace
 
-std::string xdmf_frame(const XdmfMesh& mesh, std::span<const FieldName> fields, std::size_t index, double t,
+std::string xdmf_frame(const XdmfMesh& mesh, std::span<const Field> fields, std::size_t index, double t,
                        bool breakdown) {
   std::string text = fmt::format(R"(<Grid Name="frame {}" GridType="Uniform"><Time Value="{}"/>)", index, t) + "\n";
   if (breakdown) text += "<Information Name=\"breakdown\" Value=\"1\"/>\n";

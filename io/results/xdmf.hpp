@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "engine/scene.hpp"
+#include "engine/output_field.hpp"
 
 namespace nanson {
 
@@ -17,7 +17,7 @@ struct XdmfMesh {
 };
 
 /// One time of the series. The state after a breakdown carries an Information element `breakdown` = 1.
-std::string xdmf_frame(const XdmfMesh& mesh, std::span<const FieldName> fields, std::size_t index, double t,
+std::string xdmf_frame(const XdmfMesh& mesh, std::span<const Field> fields, std::size_t index, double t,
                        bool breakdown);
 
 /// The whole file around the frames.

@@ -169,10 +169,16 @@ void Table::missing(std::vector<std::string> keys, std::string text) {
   missing_.push_back({std::move(keys), std::move(text)});
 }
 
-const toml::node* Table::require_node(std::string_view key, std::string_view hint) {
-  const toml::node* node = find(key);
-  if (!node) missing({std::string(key)}, fmt::format("{}: is missing{}", path(key), hint));
-  return node;
+const toml::node* Table::find(const Key& key) {
+  diagnostics_.asked.insert(&key);
+  if (!key.rules.example.empty()) sections_.push_back(&key);
+  const toml::node* node = find(key.name());
+  if (node || !key.rules.required) return node;
+  std::string hint;
+  if (key.value.type == KeyType::choice) hint = ", allowed: " + join_words(key.value.words());
+  else if (!key.rules.example.empty()) hint = ", written " + shape(key);
+  missing({std::string(key.name())}, fmt::format("{}: is missing{}", path(key.name()), hint));
+  return nullptr;
 }
 
 std::vector<std::string> Table::names() const {
@@ -191,8 +197,11 @@ void Table::finish() {
     const auto is_name = [&](const std::string& k) { return k == name; };
     if (std::any_of(known_.begin(), known_.end(), is_name) || std::any_of(passed_.begin(), passed_.end(), is_name))
       continue;
-    report(diagnostics_, place_of(key.source()), path(name), node, unknown_word("key", name, known_));
     meant.push_back(nearest_word(name, known_));
+    std::string why = unknown_word("key", name, known_);
+    for (const Key* section : sections_)
+      if (section->name() == meant.back()) why += "; written " + shape(*section);
+    report(diagnostics_, place_of(key.source()), path(name), node, why);
   }
   for (const Missing& m : missing_) {
     const auto misspelt = [&](const std::string& key) {

@@ -1,7 +1,6 @@
 // Strict reader of a TOML table: every key that is asked for is remembered, the rest is an error, and so is a required key that nobody wrote.
 #pragma once
 #include <array>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,17 +10,10 @@
 #include <fmt/format.h>
 
 #include "io/scene/diagnostics.hpp"
+#include "io/scene/key.hpp"
 #include "io/scene/words.hpp"
 
 namespace nanson {
-
-/// Bounds of a number: `above` and `below` exclude their limit, `from` and `to` include it.
-struct Range {
-  double above = -std::numeric_limits<double>::infinity();
-  double below = std::numeric_limits<double>::infinity();
-  double from = -std::numeric_limits<double>::infinity();
-  double to = std::numeric_limits<double>::infinity();
-};
 
 /// What stands at `node`, read into `value`; false when it is wrong, which is then reported and `value` left alone.
 bool read_value(Diagnostics& d, const toml::node& node, const std::string& path, double& value,
@@ -49,76 +41,59 @@ bool read_value(Diagnostics& d, const toml::node& node, const std::string& path,
   return i >= 0;
 }
 
-/// Keys are remembered when they are asked for; finish() reports what nobody asked for. The helpers below call it.
+/// Keys are remembered when they are asked for, finish() reports what nobody asked for. The helpers below call it.
 class Table {
  public:
   Table(const toml::table& entries, std::string path, Diagnostics& diagnostics);
 
   bool has(std::string_view key) const { return entries_.contains(key); }
-  const toml::node* find(std::string_view key);                                      // nullptr when it is not there
-  const toml::node* require_node(std::string_view key, std::string_view hint = {});  // which is then an error
-  std::string path(std::string_view key) const;                                      // "material.density"
-  Place place(std::string_view key) const;  // of the value; of the table when the key is not there
+  const toml::node* find(std::string_view key);  // nullptr when it is not there
+  const toml::node* find(const Key& key);        // the same; an error when it is required
+  std::string path(std::string_view key) const;  // "material.density"
+  Place place(std::string_view key) const;       // of the value; of the table when the key is not there
   Diagnostics& diagnostics() { return diagnostics_; }
 
   /// True when nothing was reported at `key` so far, so that its value, or its default, may be reasoned with.
   bool sound(std::string_view key) const { return !diagnostics_.wrong.contains(path(key)); }
 
-  /// Leaves `value`, the default, alone when the key is not there; false when what stands there is wrong.
+  /// Leaves `value`, the default, alone when the key is not there. False when what stands there is wrong, or nothing and it is required.
   template <class T>
-  bool read(std::string_view key, T& value) {
+  bool read(const Key& key, T& value) {
     const toml::node* node = find(key);
-    return !node || read_value(diagnostics_, *node, path(key), value);
-  }
-  template <class T>
-  bool read(std::string_view key, T& value, const Range& range) {
-    const toml::node* node = find(key);
-    return !node || read_value(diagnostics_, *node, path(key), value, range);
-  }
-
-  /// The same for a key without a default; false also when it is not there.
-  template <class T>
-  bool require(std::string_view key, T& value) {
-    if constexpr (std::is_enum_v<T>)
-      return require_node(key, ", allowed: " + join_words(words(T{}))) && read(key, value);
-    else return require_node(key) && read(key, value);
-  }
-  template <class T>
-  bool require(std::string_view key, T& value, const Range& range) {
-    return require_node(key) && read(key, value, range);
+    if (!node) return !key.rules.required;
+    if constexpr (requires { read_value(diagnostics_, *node, "", value, Range{}); })
+      return read_value(diagnostics_, *node, path(key.name()), value, key.rules.range);
+    else return read_value(diagnostics_, *node, path(key.name()), value);
   }
 
   /// Calls reader(Table&) on a sub-table and then reports what it did not read.
   template <class Reader>
-  void section(std::string_view key, Reader&& reader) {
-    const toml::node* node = find(key);
-    if (!node) return;
-    if (const auto* t = node->as_table()) finish_after(*t, path(key), reader);
-    else fail(key, fmt::format("must be a table, written [{0}] or {0} = {{ ... }}", path(key)));
-  }
-  template <class Reader>
-  void require_section(std::string_view key, Reader&& reader) {
-    if (require_node(key)) section(key, reader);
+  void section(const Key& key, Reader&& reader) {
+    if (const toml::node* node = find(key)) section_at(key, key.name(), *node, reader);
   }
 
   /// Calls reader(Table&) on every entry of a list of tables, which is called "list.0", "list.1", ...
   template <class Reader>
-  void list(std::string_view key, Reader&& reader) {
+  void list(const Key& key, Reader&& reader) {
     const toml::node* node = find(key);
     if (!node) return;
     const auto* entries = node->as_array();
-    if (!entries) return fail(key, fmt::format("must be a list of tables, each written [[{}]]", path(key)));
+    if (!entries) return fail(key.name(), fmt::format("must be a list of tables, written {}", shape(key)));
     for (std::size_t i = 0; i < entries->size(); ++i) {
-      const std::string name = fmt::format("{}.{}", path(key), i);
+      const std::string name = fmt::format("{}.{}", path(key.name()), i);
       if (const auto* t = (*entries)[i].as_table()) finish_after(*t, name, reader);
-      else report(diagnostics_, (*entries)[i], name, fmt::format("must be a table, written [[{}]]", path(key)));
+      else report(diagnostics_, (*entries)[i], name, fmt::format("must be a table, written {}", shape(key)));
     }
   }
 
-  /// Calls reader(name, Table&) on every entry of a table whose keys are names that the user gives, in the order of the file.
+  /// Calls reader(name, Table&) on every entry of a table whose keys are names that the user gives, in the order of the file; `key` is that of an entry.
   template <class Reader>
-  void each(Reader&& reader) {
-    for (const std::string& name : names()) section(name, [&](Table& t) { reader(name, t); });
+  void each(const Key& key, Reader&& reader) {
+    diagnostics_.asked.insert(&key);
+    for (const std::string& name : names()) {
+      const auto named = [&](Table& t) { reader(name, t); };
+      section_at(key, name, *find(name), named);
+    }
   }
 
   /// Of the keys `all`, which belong to one kind or another, only those of the chosen kind may be written.
@@ -142,12 +117,19 @@ class Table {
   };
 
   template <class Reader>
+  void section_at(const Key& key, std::string_view name, const toml::node& node, Reader& reader) {
+    if (const auto* t = node.as_table()) finish_after(*t, path(name), reader);
+    else fail(name, fmt::format("must be a table, written {}", shape(key)));
+  }
+  template <class Reader>
   void finish_after(const toml::table& entries, std::string path, Reader& reader) {
     Table t(entries, std::move(path), diagnostics_);
     reader(t);
     t.finish();
   }
   std::vector<std::string> names() const;
+  /// `body_force = { g = [0.0, 0.0, -9.81] }`
+  static std::string shape(const Key& key) { return fmt::format("{} = {}", key.name(), key.rules.example); }
 
   const toml::table& entries_;
   std::string path_;
@@ -155,6 +137,7 @@ class Table {
   std::vector<std::string> known_;   // asked for, in the order of asking
   std::vector<std::string> passed_;  // not to be read here, and already dealt with
   std::vector<Missing> missing_;
+  std::vector<const Key*> sections_;  // of those asked for, the ones whose shape an error can show
 };
 
 }  // namespace nanson

@@ -11,6 +11,8 @@
 
 namespace nanson {
 
+struct Key;
+
 /// Line and column of the file, or within the n-th --set (settings are listed after the file).
 struct Place {
   long setting = 0;  // 0: the file
@@ -23,6 +25,7 @@ struct Diagnostics {
   std::string file;
   std::vector<std::pair<Place, std::string>> found;
   std::set<std::string> wrong;  // keys that were reported, so that nothing is concluded from their values
+  std::set<const Key*> asked;   // keys of the tables that a reader asked for
 };
 
 /// A word of the input that is checked later: its place and its key go along.

@@ -15,7 +15,7 @@ struct Entry {
 /// Three numbers, where the word "free" leaves a component to the body.
 void read_velocity(Table& t, BoundarySpec& b) {
   Diagnostics& d = t.diagnostics();
-  const toml::node* v = t.require_node("v");
+  const toml::node* v = t.find(key("boundary.v"));
   if (!v) return;
   const auto* list = v->as_array();
   if (!list || list->size() != 3) return t.fail("v", "must be three numbers, or \"free\" in place of some");
@@ -33,7 +33,7 @@ void read_velocity(Table& t, BoundarySpec& b) {
 
 void read_points(Table& t, std::vector<std::pair<double, double>>& points) {
   Diagnostics& d = t.diagnostics();
-  const toml::node* node = t.require_node("points");
+  const toml::node* node = t.find(key("boundary.time.points"));
   if (!node) return;
   const auto* list = node->as_array();
   if (!list || list->size() < 2) return t.fail("points", "must be a list of at least two points [t, factor]");
@@ -55,14 +55,13 @@ void read_points(Table& t, std::vector<std::pair<double, double>>& points) {
 void read_entry(Table& t, Entry& e) {
   using enum BoundaryKind;
   BoundarySpec& b = e.spec;
-  read_names(t, "face", e.faces);
+  read_names(t, key("boundary.face"), e.faces);
   for (const Word& f : e.faces) b.faces.push_back({f.text, where(t.diagnostics(), f.place)});
-  const bool known = read_kind<BoundaryKind>(t, "kind", b.kind, true,
-                                             {{traction, {"t"}}, {pressure, {"p"}}, {velocity, {"v"}}});
-  if (known && b.kind == traction) t.require("t", b.traction);
-  if (known && b.kind == pressure) t.require("p", b.pressure);
+  const bool known = read_kind(t, key("boundary.kind"), b.kind);
+  if (known && b.kind == traction) t.read(key("boundary.t"), b.traction);
+  if (known && b.kind == pressure) t.read(key("boundary.p"), b.pressure);
   if (known && b.kind == velocity) read_velocity(t, b);
-  t.section("time", [&](Table& f) { read_time_function(f, b.time); });
+  t.section(key("boundary.time"), [&](Table& f) { read_time_function(f, b.time); });
   const bool has_value = b.kind == traction || b.kind == pressure || b.kind == velocity;
   if (known && !has_value && b.time.kind != TimeKind::constant)
     t.fail("time", fmt::format("kind {} has no value that could change in time", word(b.kind)));
@@ -109,20 +108,18 @@ void check_shared_faces(const std::vector<Entry>& entries, Diagnostics& d) {
 
 }  // namespace
 
-void read_names(Table& t, std::string_view key, std::vector<Word>& names) {
+void read_names(Table& t, const Key& key, std::vector<Word>& names) {
+  const std::string_view name = key.name();
   const toml::node* node = t.find(key);
-  if (node && node->is_string()) {
-    names.push_back({node->as_string()->get(), t.place(key), t.path(key)});
-  } else if (node && !node->is_array()) {
-    t.fail(key, "must be a name or a list of names");
-  } else if (t.require(key, names) && names.empty()) {
-    t.fail(key, fmt::format("must name at least one {}", key));
-  }
+  if (!node) return;
+  if (node->is_string()) names.push_back({node->as_string()->get(), t.place(name), t.path(name)});
+  else if (!node->is_array()) t.fail(name, "must be a name or a list of names");
+  else if (t.read(key, names) && names.empty()) t.fail(name, fmt::format("must name at least one {}", name));
 }
 
 void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary) {
   std::vector<Entry> sound;
-  root.list("boundary", [&](Table& t) {
+  root.list(key("boundary"), [&](Table& t) {
     Entry e;
     read_entry(t, e);
     if (t.sound("kind") && t.sound("v")) sound.push_back(e);
@@ -133,25 +130,21 @@ void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary) {
 
 void read_time_function(Table& t, TimeFunction& f) {
   using enum TimeKind;
-  read_kind<TimeKind>(t, "kind", f.kind, true,
-                      {{ramp, {"until"}},
-                       {sine, {"frequency", "phase"}},
-                       {pulse, {"from", "until"}},
-                       {logistic, {"rate", "centre", "until"}},
-                       {table, {"points"}}});
-  if (f.kind == ramp) t.require("until", f.until, {.above = 0});
+  read_kind(t, key("boundary.time.kind"), f.kind);
+  if (f.kind == ramp) t.read(key("boundary.time.until", "ramp"), f.until);
   if (f.kind == sine) {
-    t.require("frequency", f.frequency, {.above = 0});
-    t.read("phase", f.phase);
+    t.read(key("boundary.time.frequency"), f.frequency);
+    t.read(key("boundary.time.phase"), f.phase);
   }
   if (f.kind == pulse) {
-    const bool from = t.require("from", f.from), until = t.require("until", f.until);
+    const bool from = t.read(key("boundary.time.from"), f.from);
+    const bool until = t.read(key("boundary.time.until", "pulse"), f.until);
     if (from && until && !(f.from < f.until)) t.fail("until", fmt::format("must be above from = {}", f.from));
   }
   if (f.kind == logistic) {
-    t.require("rate", f.rate, {.above = 0});
-    t.require("centre", f.centre);
-    t.require("until", f.until, {.above = 0});
+    t.read(key("boundary.time.rate"), f.rate);
+    t.read(key("boundary.time.centre"), f.centre);
+    t.read(key("boundary.time.until", "logistic"), f.until);
   }
   if (f.kind == table) read_points(t, f.points);
 }

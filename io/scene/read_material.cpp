@@ -21,7 +21,7 @@ std::string point_problem(const std::vector<std::pair<double, double>>& before, 
 /// [[eps_p, tau_y], ...].
 void read_hardening(Table& t, std::vector<std::pair<double, double>>& points) {
   Diagnostics& d = t.diagnostics();
-  const toml::node* node = t.find("hardening");
+  const toml::node* node = t.find(key("material.hardening"));
   const auto* list = node->as_array();
   if (!list || list->size() < 2 || list->size() > hardening_points)
     return t.fail("hardening", fmt::format("must be a list of 2 to {} points [eps_p, tau_y]", hardening_points));
@@ -47,31 +47,29 @@ void read_plasticity(Table& t, MaterialSpec& m) {
     t.missing({"hardening_modulus", "hardening"},
               t.path("hardening_modulus") + ": exactly one of hardening_modulus | hardening is needed");
   if (modulus && curve) t.fail("hardening", "stands beside hardening_modulus, exactly one of them is allowed");
-  t.read("hardening_modulus", m.hardening_modulus, {.from = 0});
+  t.read(key("material.hardening_modulus"), m.hardening_modulus);
   if (curve && !modulus) read_hardening(t, m.hardening);
+  const bool yield = t.read(key("material.yield_stress"), m.yield_stress);
   if (!curve) {
-    t.require("yield_stress", m.yield_stress, {.above = 0});
-  } else if (t.read("yield_stress", m.yield_stress, {.above = 0}) && t.has("yield_stress") && !m.hardening.empty()
-             && m.yield_stress != m.hardening[0].second) {
+    if (!t.has("yield_stress")) t.missing({"yield_stress"}, t.path("yield_stress") + ": is missing");
+  } else if (yield && t.has("yield_stress") && !m.hardening.empty() && m.yield_stress != m.hardening[0].second) {
     t.fail("yield_stress", fmt::format("is not the curve's first tau_y, {}: leave it out", m.hardening[0].second));
   }
 }
 
 void read_material(Table& t, MaterialSpec& m) {
-  const bool law = read_kind<Law>(
-      t, "law", m.law, true,
-      {{Law::mooney_rivlin, {"xi"}}, {Law::hencky_j2, {"yield_stress", "hardening_modulus", "hardening"}}});
-  t.require("density", m.density, {.above = 0});
-  const bool young = t.require("youngs_modulus", m.youngs_modulus, {.above = 0});
-  const bool poisson = t.require("poissons_ratio", m.poissons_ratio, {.above = -1, .to = 0.5});
-  if (law && m.law == Law::mooney_rivlin && t.require("xi", m.xi, {.from = 0}) && young && poisson) {
+  const bool law = read_kind(t, key("material.law"), m.law);
+  t.read(key("material.density"), m.density);
+  const bool young = t.read(key("material.youngs_modulus"), m.youngs_modulus);
+  const bool poisson = t.read(key("material.poissons_ratio"), m.poissons_ratio);
+  if (law && m.law == Law::mooney_rivlin && t.read(key("material.xi"), m.xi) && young && poisson) {
     const double limit = m.youngs_modulus / (2 * (1 + m.poissons_ratio))
                          / (3 * std::sqrt(3.0));  // 2 zeta = mu - 3 sqrt(3) xi stays positive
     if (!(m.xi < limit)) t.fail("xi", fmt::format("must be below mu / (3 sqrt(3)) = {:.6g}", limit));
   }
   if (law && m.law == Law::hencky_j2) read_plasticity(t, m);
-  t.read("volumetric", m.volumetric);
-  t.read("isochoric", m.isochoric);
+  t.read(key("material.volumetric"), m.volumetric);
+  t.read(key("material.isochoric"), m.isochoric);
 }
 
 /// No region twice.
@@ -87,18 +85,19 @@ void check_shared_regions(const std::vector<Word>& regions, Diagnostics& d) {
 }  // namespace
 
 void read_materials(Table& root, Scene& s) {
-  const toml::node* node = root.require_node("material");
+  const toml::node* node = root.find(key("material"));
   if (!node) return;
   if (!node->is_array())
-    return root.section("material", [&](Table& t) {
+    return root.section(key("material"), [&](Table& t) {
       if (t.has("region")) t.fail("region", "is a key of [[material]] only, [material] is that of the whole mesh");
       read_material(t, s.material);
     });
   std::vector<Word> regions;
-  root.list("material", [&](Table& t) {
+  root.list(key("material"), [&](Table& t) {
     MaterialSpec m;
     std::vector<Word> own;
-    read_names(t, "region", own);
+    read_names(t, key("material.region"), own);
+    if (!t.has("region")) t.missing({"region"}, t.path("region") + ": is missing");
     for (const Word& w : own) m.regions.push_back({w.text, where(t.diagnostics(), w.place)});
     regions.insert(regions.end(), own.begin(), own.end());
     read_material(t, m);

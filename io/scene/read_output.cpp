@@ -1,20 +1,15 @@
 // The [output] section: field names and probes.
 #include <algorithm>
 
+#include "engine/output_field.hpp"
 #include "io/scene/scene_sections.hpp"
 
 namespace nanson {
 
 namespace {
 
-std::vector<std::string_view> known_fields() {
-  std::vector<std::string_view> names;
-  for (const FieldName& f : field_names) names.push_back(f.name);
-  return names;
-}
-
 void read_fields(Table& t, const std::vector<Word>& words, std::vector<std::string>& fields) {
-  const std::vector<std::string_view> known = known_fields();
+  const std::vector<std::string_view> known = output_field_names();
   fields.clear();
   for (const Word& w : words) {
     if (std::find(known.begin(), known.end(), w.text) == known.end())
@@ -28,9 +23,9 @@ void read_fields(Table& t, const std::vector<Word>& words, std::vector<std::stri
 void read_probe(const std::string& name, Table& t, std::vector<ProbeSpec>& probes) {
   ProbeSpec p;
   p.name = name;
-  if (t.require("at", p.at)) p.where = where(t.diagnostics(), t.place("at"));
+  if (t.read(key("output.probes.NAME.at"), p.at)) p.where = where(t.diagnostics(), t.place("at"));
   std::vector<Word> words;
-  if (t.require("fields", words)) {
+  if (t.read(key("output.probes.NAME.fields"), words)) {
     if (words.empty()) t.fail("fields", "must name at least one field");
     read_fields(t, words, p.fields);
   }
@@ -40,13 +35,13 @@ void read_probe(const std::string& name, Table& t, std::vector<ProbeSpec>& probe
 }  // namespace
 
 void read_output(Table& t, OutputSpec& o) {
-  t.read("every", o.every, {.above = 0});
-  t.read("history_every", o.history_every, {.from = 1});
+  t.read(key("output.every"), o.every);
+  t.read(key("output.history_every"), o.history_every);
   std::vector<Word> words;
-  if (t.read("fields", words) && t.has("fields")) read_fields(t, words, o.fields);
-  t.read("compress", o.compress, {.from = 0, .to = 9});
-  t.section("probes", [&](Table& probes) {
-    probes.each([&](const std::string& name, Table& p) {
+  if (t.read(key("output.fields"), words) && t.has("fields")) read_fields(t, words, o.fields);
+  t.read(key("output.compress"), o.compress);
+  t.section(key("output.probes"), [&](Table& probes) {
+    probes.each(key("output.probes.NAME"), [&](const std::string& name, Table& p) {
       if (!is_plain(name)) probes.fail(name, "names a column: use letters, digits, - and _ only");
       read_probe(name, p, o.probes);
     });

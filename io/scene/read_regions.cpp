@@ -10,7 +10,7 @@ namespace {
 constexpr double off_plane = 1e-6;  // share of a cell by which a plane may miss the cells' own
 
 bool read_planes(Table& t, std::vector<double>& at) {
-  const toml::node* node = t.require_node("at");
+  const toml::node* node = t.find(key("mesh.regions.at"));
   if (!node) return false;
   const auto* list = node->as_array();
   if (!list || list->empty()) {
@@ -45,11 +45,11 @@ std::string plane_problem(const MeshSpec& m, std::size_t i) {
 
 void read_regions(Table& t, MeshSpec& m) {
   const bool box = t.sound("box") && t.sound("box.size") && t.sound("box.origin") && t.sound("cells");
-  t.section("regions", [&](Table& r) {
+  t.section(key("mesh.regions"), [&](Table& r) {
     MeshRegions regions;
     std::vector<Word> names;
-    const bool axis = r.require("axis", regions.axis), planes = read_planes(r, regions.at);
-    if (r.require("names", names)) {
+    const bool axis = r.read(key("mesh.regions.axis"), regions.axis), planes = read_planes(r, regions.at);
+    if (r.read(key("mesh.regions.names"), names)) {
       for (std::size_t i = 0; i < names.size(); ++i) {
         regions.names.push_back(names[i].text);
         for (std::size_t k = 0; k < i; ++k)

@@ -26,18 +26,18 @@ std::optional<toml::table> parse_text(const std::string& text, Diagnostics& d) {
 
 void read_root(Table& root, SceneResult& r, const fs::path& folder) {
   Scene& s = r.scene;
-  if (root.require("scene", s.name) && !is_plain(s.name))
+  if (root.read(key("scene"), s.name) && !is_plain(s.name))
     root.fail("scene", "names a folder: use letters, digits, - and _ only");
-  root.require_section("mesh", [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
+  root.section(key("mesh"), [&](Table& t) { read_mesh_section(t, s.mesh, folder); });
   read_materials(root, s);
-  root.section("physics", [&](Table& t) { read_physics(t, s.physics); });
-  root.section("projection", [&](Table& t) { read_projection(t, s.projection); });
-  root.section("initial", [&](Table& t) { read_initial(t, s.initial); });
+  root.section(key("physics"), [&](Table& t) { read_physics(t, s.physics); });
+  root.section(key("projection"), [&](Table& t) { read_projection(t, s.projection); });
+  root.section(key("initial"), [&](Table& t) { read_initial(t, s.initial); });
   read_boundaries(root, s.boundary);
-  root.section("body_force", [&](Table& t) { t.read("g", s.body_force); });
-  root.require_section("time", [&](Table& t) { read_time(t, s.time); });
-  root.section("output", [&](Table& t) { read_output(t, s.output); });
-  root.section("monitor", [&](Table& t) { read_monitor(t, s.monitor); });
+  root.section(key("body_force"), [&](Table& t) { t.read(key("body_force.g"), s.body_force); });
+  root.section(key("time"), [&](Table& t) { read_time(t, s.time); });
+  root.section(key("output"), [&](Table& t) { read_output(t, s.output); });
+  root.section(key("monitor"), [&](Table& t) { read_monitor(t, s.monitor); });
   check_together(root, s);
 }
 
@@ -71,6 +71,7 @@ SceneResult read_scene(const fs::path& file, const std::vector<std::string>& set
     Table root(*tree, "", d);
     read_root(root, r, file.parent_path());
     root.finish();
+    r.asked = std::move(d.asked);
     r.mesh_valid = std::none_of(d.wrong.begin(), d.wrong.end(), concerns_mesh);
   }
   r.errors = listed(std::move(d));

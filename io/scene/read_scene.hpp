@@ -1,6 +1,7 @@
 // A scene file and the --set values, read into a Scene; every error with its place.
 #pragma once
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -9,12 +10,15 @@
 
 namespace nanson {
 
+struct Key;
+
 struct SceneResult {
   Scene scene;
   std::vector<std::string>
-      errors;               // "file:line:column: key = found: why", sorted; the scene is valid when there are none
-  std::string resolved;     // the TOML with all settings in it: what makes one run differ from another
-  bool mesh_valid = false;  // the mesh can be made, and names checked against it, although other sections are wrong
+      errors;                  // "file:line:column: key = found: why", sorted; the scene is valid when there are none
+  std::string resolved;        // the TOML with all settings in it: what makes one run differ from another
+  std::set<const Key*> asked;  // keys of the table that the reader asked for
+  bool mesh_valid = false;     // the mesh can be made, and names checked against it, although other sections are wrong
 };
 
 /// `settings` are "a.b=VALUE"; they override the file and are checked like it.

@@ -24,7 +24,7 @@ void check_count(Table& t, const std::array<int, 3>& cells) {
 
 void read_mesh_file(Table& t, MeshSpec& m, const std::filesystem::path& folder) {
   std::string name;
-  if (!t.read("file", name) || !t.has("file")) return;
+  if (!t.read(key("mesh.file"), name) || !t.has("file")) return;
   m.file = {(folder / name).string(), where(t.diagnostics(), t.place("file"))};
   std::error_code error;
   if (!std::filesystem::is_regular_file(m.file.name, error))
@@ -33,7 +33,7 @@ void read_mesh_file(Table& t, MeshSpec& m, const std::filesystem::path& folder) 
 
 /// The core of a quarter is m x m cells, m half the tangential ones.
 void read_cylinder_cells(Table& t, MeshSpec& m) {
-  if (!t.require("cells", m.cells, {.from = 1})) return;
+  if (!t.read(key("mesh.cells", "cylinder"), m.cells)) return;
   if (m.cells[1] % 2 != 0)
     return t.fail(
         "cells",
@@ -57,15 +57,28 @@ bool normalise(Vec3& direction) {
 }
 
 void read_rotation(Table& t, InitialSpec& s) {
-  t.require("omega", s.omega);
-  const toml::node* centre = t.find("centre");
+  t.read(key("initial.omega", "rotation"), s.omega);
+  const toml::node* centre = t.find(key("initial.centre"));
   if (!centre || (centre->is_string() && centre->as_string()->get() == "mass")) return;
   Vec3 at{};
   if (centre->is_string()) t.fail("centre", "must be \"mass\" or three numbers");
-  else if (t.read("centre", at)) s.centre = at;
+  else if (t.read(key("initial.centre"), at)) s.centre = at;
 }
 
 }  // namespace
+
+KindKeys kind_keys(std::span<const Key> table, std::string_view section, std::string_view word) {
+  KindKeys keys;
+  const auto add = [](std::vector<std::string_view>& names, std::string_view name) {
+    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+  };
+  for (const Key& k : table) {
+    if (k.section() != section || k.rules.of.empty()) continue;
+    add(keys.all, k.name());
+    if (k.is_of(word)) add(keys.own, k.name());
+  }
+  return keys;
+}
 
 void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folder) {
   std::string beside;
@@ -82,124 +95,110 @@ void read_mesh_section(Table& t, MeshSpec& m, const std::filesystem::path& folde
   if (beside == "cylinder") m.source = MeshSource::cylinder;
   if (beside == "needle") m.source = MeshSource::needle;
   if (beside == "file") m.source = MeshSource::file;
-  t.section("box", [&](Table& b) {
-    b.read("origin", m.origin);
-    b.require("size", m.size, {.above = 0});
+  t.section(key("mesh.box"), [&](Table& b) {
+    b.read(key("mesh.box.origin"), m.origin);
+    b.read(key("mesh.box.size"), m.size);
   });
-  t.section("cylinder", [&](Table& c) {
-    c.require("radius", m.radius, {.above = 0});
-    c.require("length", m.length, {.above = 0});
-    c.read("sector", m.sector);
+  t.section(key("mesh.cylinder"), [&](Table& c) {
+    c.read(key("mesh.cylinder.radius"), m.radius);
+    c.read(key("mesh.cylinder.length"), m.length);
+    c.read(key("mesh.cylinder.sector"), m.sector);
   });
-  t.section("needle", [&](Table& n) {
-    const bool inner = n.require("inner", m.inner, {.above = 0}), outer = n.require("outer", m.outer, {.above = 0});
+  t.section(key("mesh.needle"), [&](Table& n) {
+    const bool inner = n.read(key("mesh.needle.inner"), m.inner), outer = n.read(key("mesh.needle.outer"), m.outer);
     if (inner && outer && m.outer <= m.inner)
       n.fail("outer", fmt::format("must be above mesh.needle.inner, {:g}", m.inner));
-    n.require("angle", m.angle, {.above = 0, .to = 90});
+    n.read(key("mesh.needle.angle"), m.angle);
   });
   read_mesh_file(t, m, folder);
-  if (m.source == MeshSource::file)
-    return t.only("file", {}, std::array<std::string_view, 4>{"cells", "split", "perturb", "regions"});
-  if (m.source == MeshSource::cylinder) {
-    t.only("cylinder", {}, std::array<std::string_view, 3>{"split", "perturb", "regions"});
-    return read_cylinder_cells(t, m);
-  }
-  if (m.source == MeshSource::needle) {
-    t.only("needle", {}, std::array<std::string_view, 3>{"split", "perturb", "regions"});
-    if (t.require("cells", m.cells, {.from = 1})) check_count(t, m.cells);
-    return;
-  }
-  if (t.read("cells", m.cells, {.from = 1})) check_count(t, m.cells);
-  t.read("split", m.split);
-  t.read("perturb", m.perturb, {.from = 0, .to = 0.4});
+  const KindKeys keys = kind_keys(scene_keys, "mesh", word(m.source));
+  t.only(word(m.source), keys.own, keys.all);
+  if (m.source == MeshSource::cylinder) read_cylinder_cells(t, m);
+  if (m.source == MeshSource::needle && t.read(key("mesh.cells", "needle"), m.cells)) check_count(t, m.cells);
+  if (m.source != MeshSource::box) return;
+  if (t.read(key("mesh.cells", "box"), m.cells)) check_count(t, m.cells);
+  t.read(key("mesh.split"), m.split);
+  t.read(key("mesh.perturb"), m.perturb);
   read_regions(t, m);
 }
 
 void read_physics(Table& t, PhysicsSpec& p) {
-  t.read("formulation", p.formulation);
-  t.read("description", p.description);
-  t.read("stabilisation", p.stabilisation);
-  t.read("pressure_jump", p.pressure_jump);
-  t.read("reconstruction", p.reconstruction);
-  t.read("flux_correction", p.flux_correction);
-  t.read("boundary_flux", p.boundary_flux);
-  t.read("upwind_metric", p.upwind_metric);  // both words also with linear_elastic: there H = I and they agree
-  t.read("entropy_fix", p.entropy_fix);
-  t.read("parting", p.parting, {.from = 0});
-  t.read("keep_angular_momentum", p.keep_angular_momentum);
+  t.read(key("physics.formulation"), p.formulation);
+  t.read(key("physics.description"), p.description);
+  t.read(key("physics.stabilisation"), p.stabilisation);
+  t.read(key("physics.pressure_jump"), p.pressure_jump);
+  t.read(key("physics.reconstruction"), p.reconstruction);
+  t.read(key("physics.flux_correction"), p.flux_correction);
+  t.read(key("physics.boundary_flux"), p.boundary_flux);
+  t.read(key("physics.upwind_metric"),
+         p.upwind_metric);  // both words also with linear_elastic: there H = I and they agree
+  t.read(key("physics.entropy_fix"), p.entropy_fix);
+  t.read(key("physics.parting"), p.parting);
+  t.read(key("physics.keep_angular_momentum"), p.keep_angular_momentum);
 }
 
 void read_projection(Table& t, ProjectionSpec& p) {
-  if (read_kind<ProjectionSolver>(t, "solver", p.solver, false, {{ProjectionSolver::pseudo_time, {"length_scale"}}})
-      && p.solver == ProjectionSolver::pseudo_time)
-    t.require("length_scale", p.length_scale, {.above = 0});
-  t.read("stabilisation", p.stabilisation, {.from = 0});
-  t.read("drift_control", p.drift_control, {.from = 0, .to = 1});
-  t.read("tolerance", p.tolerance, {.above = 0, .below = 1});
-  t.read("max_iterations", p.max_iterations, {.from = 1});
-  t.read("on_limit", p.on_limit);
+  if (read_kind(t, key("projection.solver"), p.solver) && p.solver == ProjectionSolver::pseudo_time)
+    t.read(key("projection.length_scale"), p.length_scale);
+  t.read(key("projection.stabilisation"), p.stabilisation);
+  t.read(key("projection.drift_control"), p.drift_control);
+  t.read(key("projection.tolerance"), p.tolerance);
+  t.read(key("projection.max_iterations"), p.max_iterations);
+  t.read(key("projection.on_limit"), p.on_limit);
 }
 
 void read_initial(Table& t, InitialSpec& s) {
   using enum InitialField;
-  read_kind<InitialField>(t, "field", s.field, false,
-                          {{velocity, {"v"}},
-                           {rotation, {"omega", "centre"}},
-                           {twist, {"omega", "height"}},
-                           {plate_mode, {"amplitude", "omega", "B"}},
-                           {standing_wave, {"amplitude", "J"}},
-                           {plane_wave, {"amplitude", "length", "direction", "J"}},
-                           {punch, {"v0", "height"}},
-                           {manufactured, {"amplitudes", "length", "period"}}});
-  if (s.field == velocity) t.require("v", s.v);
+  read_kind(t, key("initial.field"), s.field);
+  if (s.field == velocity) t.read(key("initial.v"), s.v);
   if (s.field == rotation) read_rotation(t, s);
   if (s.field == twist) {
-    t.require("omega", s.twist_omega);
-    if (t.require("height", s.height) && s.height == 0) t.fail("height", "must not be zero");
+    t.read(key("initial.omega", "twist"), s.twist_omega);
+    if (t.read(key("initial.height", "twist"), s.height) && s.height == 0) t.fail("height", "must not be zero");
   }
   if (s.field == punch) {
-    t.require("v0", s.v0);
-    t.require("height", s.height, {.above = 0});
+    t.read(key("initial.v0"), s.v0);
+    t.read(key("initial.height", "punch"), s.height);
   }
   if (s.field == plate_mode) {
-    t.require("amplitude", s.amplitude);
-    t.require("omega", s.mode_omega);
-    t.require("B", s.B);
+    t.read(key("initial.amplitude", "plate_mode"), s.amplitude);
+    t.read(key("initial.omega", "plate_mode"), s.mode_omega);
+    t.read(key("initial.B"), s.B);
   }
-  if (s.field == standing_wave || s.field == plane_wave) {
-    t.require("amplitude", s.amplitude);
-    t.read("J", s.J);
-  }
+  if (s.field == standing_wave) t.read(key("initial.amplitude", "standing_wave"), s.amplitude);
+  if (s.field == standing_wave || s.field == plane_wave) t.read(key("initial.J"), s.J);
   if (s.field == plane_wave) {
-    t.require("length", s.length, {.above = 0});
-    if (t.read("direction", s.direction) && !normalise(s.direction)) t.fail("direction", "must not be zero");
+    t.read(key("initial.amplitude", "plane_wave"), s.amplitude);
+    t.read(key("initial.length", "plane_wave"), s.length);
+    if (t.read(key("initial.direction"), s.direction) && !normalise(s.direction))
+      t.fail("direction", "must not be zero");
   }
   if (s.field == manufactured) {
-    t.require("amplitudes", s.amplitudes);
-    t.require("length", s.length, {.above = 0});
-    t.require("period", s.period, {.above = 0});
+    t.read(key("initial.amplitudes"), s.amplitudes);
+    t.read(key("initial.length", "manufactured"), s.length);
+    t.read(key("initial.period"), s.period);
   }
 }
 
 void read_time(Table& t, TimeSpec& s) {
-  t.require("end", s.end, {.above = 0});
-  t.read("integrator", s.integrator);
+  t.read(key("time.end"), s.end);
+  t.read(key("time.integrator"), s.integrator);
   if (s.integrator == Integrator::ssp_rk3) s.cfl = 0.6;
-  t.read("cfl", s.cfl, {.above = 0, .to = 2});  // no explicit scheme is stable above: larger is a slip of the pen
-  t.read("step", s.step);
-  t.read("dt_max", s.dt_max, {.above = 0});
-  t.read("dt_collapse", s.dt_collapse, {.above = 0, .below = 1});
-  t.read("max_steps", s.max_steps, {.from = 0});
-  t.read("max_wall_s", s.max_wall_s, {.from = 0});
+  t.read(key("time.cfl"), s.cfl);  // no explicit scheme is stable above: larger is a slip of the pen
+  t.read(key("time.step"), s.step);
+  t.read(key("time.dt_max"), s.dt_max);
+  t.read(key("time.dt_collapse"), s.dt_collapse);
+  t.read(key("time.max_steps"), s.max_steps);
+  t.read(key("time.max_wall_s"), s.max_wall_s);
 }
 
 void read_monitor(Table& t, MonitorSpec& m) {
-  t.read("energy", m.energy);
-  t.read("entropy", m.entropy);
-  t.read("involutions", m.involutions);
-  t.read("geometry", m.geometry);
-  t.read("energy_growth", m.energy_growth);
-  t.read("energy_tolerance", m.energy_tolerance, {.above = 0});
+  t.read(key("monitor.energy"), m.energy);
+  t.read(key("monitor.entropy"), m.entropy);
+  t.read(key("monitor.involutions"), m.involutions);
+  t.read(key("monitor.geometry"), m.geometry);
+  t.read(key("monitor.energy_growth"), m.energy_growth);
+  t.read(key("monitor.energy_tolerance"), m.energy_tolerance);
 }
 
 }  // namespace nanson

@@ -5,6 +5,7 @@
 
 #include "engine/scene.hpp"
 #include "io/scene/config_table.hpp"
+#include "io/scene/scene_keys.hpp"
 
 namespace nanson {
 
@@ -15,8 +16,8 @@ void read_materials(Table& root, Scene& s);
 void read_physics(Table& t, PhysicsSpec& p);
 void read_projection(Table& t, ProjectionSpec& p);
 void read_initial(Table& t, InitialSpec& s);
-/// A name or a list of names, required.
-void read_names(Table& t, std::string_view key, std::vector<Word>& names);
+/// A name or a list of names, at least one.
+void read_names(Table& t, const Key& key, std::vector<Word>& names);
 void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary);
 void read_time_function(Table& t, TimeFunction& f);
 void read_time(Table& t, TimeSpec& s);
@@ -26,27 +27,21 @@ void read_monitor(Table& t, MonitorSpec& m);
 /// Rules between sections, for what was read without an error.
 void check_together(Table& root, const Scene& s);
 
-/// A kind and the keys that belong to it.
-template <class Kind>
+/// The keys of a section that belong to one kind of thing or another, each once, and of these the ones that belong to `word`.
 struct KindKeys {
-  Kind kind;
-  std::vector<std::string_view> keys;
+  std::vector<std::string_view> all, own;
 };
+KindKeys kind_keys(std::span<const Key> table, std::string_view section, std::string_view word);
 
 /// Reads the kind and refuses keys that belong to other kinds only. False when the kind is wrong or missing: then nothing is said about any of
 /// these keys, and `kind` keeps its default, which has none.
 template <class Kind>
-bool read_kind(Table& t, std::string_view key, Kind& kind, bool required, const std::vector<KindKeys<Kind>>& table) {
-  std::vector<std::string_view> all, own;
-  for (const auto& entry : table) all.insert(all.end(), entry.keys.begin(), entry.keys.end());
-  if (!(required ? t.require(key, kind) : t.read(key, kind))) {
-    t.pass(all);
-    return false;
-  }
-  for (const auto& entry : table)
-    if (entry.kind == kind) own = entry.keys;
-  t.only(word(kind), own, all);
-  return true;
+bool read_kind(Table& t, const Key& key, Kind& kind) {
+  const bool known = t.read(key, kind);
+  const KindKeys keys = kind_keys(scene_keys, key.section(), word(kind));
+  if (known) t.only(word(kind), keys.own, keys.all);
+  else t.pass(keys.all);
+  return known;
 }
 
 }  // namespace nanson

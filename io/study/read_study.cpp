@@ -7,6 +7,7 @@
 
 #include "io/scene/config_table.hpp"
 #include "io/study/read_study_report.hpp"
+#include "io/study/study_keys.hpp"
 #include "io/text_file.hpp"
 
 namespace nanson {
@@ -34,15 +35,17 @@ bool is_scene_key(Diagnostics& d, const toml::node& node, const std::string& pat
   return false;
 }
 
-void read_settings(Table& t, std::string_view section, std::vector<StudySetting>& settings) {
-  const toml::node* node = t.find(section);
+void read_settings(Table& t, const Key& key, std::vector<StudySetting>& settings) {
+  const std::string_view section = key.name();
+  const toml::node* node = t.find(key);
   if (!node) return;
   const auto* table = node->as_table();
-  if (!table) return t.fail(section, "must be a table of scene keys and values, like { \"time.end\" = 0.01 }");
-  for (const auto& [key, value] : entries_of(*table)) {
-    const std::string path = fmt::format("{}.{}", t.path(section), shown_key(key));
-    if (is_scene_key(t.diagnostics(), *value, path, key))
-      settings.push_back({key, toml_text(*value), where(t.diagnostics(), place_of(value->source()))});
+  if (!table)
+    return t.fail(section, fmt::format("must be a table of scene keys and values, like {}", key.rules.example));
+  for (const auto& [name, value] : entries_of(*table)) {
+    const std::string path = fmt::format("{}.{}", t.path(section), shown_key(name));
+    if (is_scene_key(t.diagnostics(), *value, path, name))
+      settings.push_back({name, toml_text(*value), where(t.diagnostics(), place_of(value->source()))});
   }
 }
 
@@ -53,10 +56,11 @@ void read_range(Diagnostics& d, const toml::table& table, const std::string& pat
   AxisScale scale = AxisScale::linear;
   const std::size_t before = d.found.size();
   Table t(table, path, d);
-  t.require("from", from);
-  t.require("to", to);
-  t.require("count", count, {.from = 2, .to = 1000});
-  t.read("scale", scale);
+  d.asked.insert(&study_key("vary.KEY"));
+  t.read(study_key("vary.KEY.from"), from);
+  t.read(study_key("vary.KEY.to"), to);
+  t.read(study_key("vary.KEY.count"), count);
+  t.read(study_key("vary.KEY.scale"), scale);
   if (scale == AxisScale::log && !(from > 0 && to > 0)) t.fail("scale", "needs from and to above 0");
   t.finish();
   if (d.found.size() > before) return;
@@ -72,7 +76,7 @@ void read_range(Diagnostics& d, const toml::table& table, const std::string& pat
 }
 
 void read_vary(Table& t, std::vector<StudyAxis>& axes) {
-  const toml::node* node = t.find("vary");
+  const toml::node* node = t.find(study_key("vary"));
   if (!node) return;
   const auto* table = node->as_table();
   if (!table || table->empty())
@@ -97,29 +101,29 @@ void read_vary(Table& t, std::vector<StudyAxis>& axes) {
 }
 
 void read_cases(Table& root, Study& study, const fs::path& folder) {
-  root.list("case", [&](Table& t) {
+  root.list(study_key("case"), [&](Table& t) {
     StudyCase c;
     std::string scene;
-    if (t.require("name", c.name)) {
+    if (t.read(study_key("case.name"), c.name)) {
       const auto same = [&](const StudyCase& other) { return other.name == c.name; };
       if (c.name.empty() || std::any_of(study.cases.begin(), study.cases.end(), same))
         t.fail("name", "must be a name of its own");
     }
-    if (t.read("scene", scene) && t.has("scene")) c.scene = (folder / scene).lexically_normal();
-    read_settings(t, "set", c.settings);
+    if (t.read(study_key("case.scene"), scene) && t.has("scene")) c.scene = (folder / scene).lexically_normal();
+    read_settings(t, study_key("case.set"), c.settings);
     study.cases.push_back(std::move(c));
   });
   if (root.has("case") && root.sound("case") && study.cases.empty()) root.fail("case", "must have at least one entry");
 }
 
 void read_root(Table& root, Study& s, const fs::path& folder) {
-  if (root.require("study", s.name) && !is_plain(s.name))
+  if (root.read(study_key("study"), s.name) && !is_plain(s.name))
     root.fail("study", "names a folder: use letters, digits, - and _ only");
-  root.require("kind", s.kind);
+  root.read(study_key("kind"), s.kind);
   std::string scene;
-  root.read("scene", scene);
-  root.read("threads", s.threads, {.from = 1, .to = 4096});
-  read_settings(root, "set", s.set);
+  root.read(study_key("scene"), scene);
+  root.read(study_key("threads"), s.threads);
+  read_settings(root, study_key("set"), s.set);
   read_vary(root, s.vary);
   read_cases(root, s, folder);
   s.scene_where = where(root.diagnostics(), root.place("scene"));
@@ -130,7 +134,7 @@ void read_root(Table& root, Study& s, const fs::path& folder) {
   if (s.vary.empty() && s.cases.empty() && !root.has("vary") && !root.has("case"))
     root.missing({"vary", "case"}, "a study needs [vary] or [[case]]: what its runs differ in");
   set_report_defaults(s);
-  root.section("report", [&](Table& t) { read_study_report(t, s, folder); });
+  root.section(study_key("report"), [&](Table& t) { read_study_report(t, s, folder); });
   if (!root.has("report") && root.sound("kind") && s.kind != StudyKind::stability)
     root.missing({"report"}, "report.y: is missing: what the plots show");
 }
@@ -177,6 +181,7 @@ StudyResult read_study(const fs::path& file) {
   } catch (const toml::parse_error& e) {
     report(d, place_of(e.source()), std::string(e.description()));
   }
+  r.asked = d.asked;
   r.errors = listed(std::move(d));
   return r;
 }

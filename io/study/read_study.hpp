@@ -1,6 +1,7 @@
 // A study file, read into a Study; every error with its place.
 #pragma once
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,10 +11,13 @@
 
 namespace nanson {
 
+struct Key;
+
 struct StudyResult {
   Study study;
   std::vector<std::string>
-      errors;  // "file:line:column: key = found: why", sorted; the study is valid when there are none
+      errors;                  // "file:line:column: key = found: why", sorted; the study is valid when there are none
+  std::set<const Key*> asked;  // keys of the table that the reader asked for
 };
 
 /// Scenes that the study names are not read here: io/study_scenes checks them with the settings of every run.

@@ -71,10 +71,17 @@ struct Study {
   ReportSpec report;
 };
 
-/// What a study makes of a run, beside the numbers of its summary: mesh size (6 volume / tets)^(1/3) [m], the edge of a cell of six tets; wall seconds of the
-/// whole process; and the extremes over the history that the verdict is taken from.
-inline constexpr std::array<const char*, 5> study_quantities{"h", "process_s", "energy_excess", "least_detF",
-                                                             "least_tet_ratio"};
+/// What a study makes of a run, beside the numbers of its summary; the extremes are those that the verdict is taken from.
+struct StudyQuantity {
+  std::string_view name, unit, sentence;
+};
+inline constexpr std::array<StudyQuantity, 5> study_quantities{{
+    {"h", "m", "mesh size (6 volume / tets)^(1/3), the edge of a cell of six tets"},
+    {"process_s", "s", "wall time of the whole process"},
+    {"energy_excess", "-", "largest growth of energy over the run, share of the larger of initial energy and work"},
+    {"least_detF", "-", "least determinant of F over the run"},
+    {"least_tet_ratio", "-", "least deformed over undeformed volume of a tet over the run (monitor.geometry)"},
+}};
 
 struct PlannedRun {
   std::string label;  // "mesh.cells = [6, 6, 6], physics.formulation = pF"

@@ -9,6 +9,7 @@
 #include <set>
 
 #include "engine/initial.hpp"
+#include "engine/output_field.hpp"
 #include "io/mesh/read_mesh.hpp"
 #include "io/scene/read_scene.hpp"
 #include "io/scene/words.hpp"
@@ -92,9 +93,8 @@ std::string missing_quantity(const Scene& s, const std::string& name) {
   std::vector<std::string> known;
   for (const ProbeSpec& p : s.output.probes)
     for (const std::string& field : p.fields) {
-      const auto at = std::find_if(field_names.begin(), field_names.end(),
-                                   [&](const FieldName& f) { return f.name == field; });
-      for (int k = 0; k < at->components; ++k) known.push_back(fmt::format("probes.{}.{}.{}", p.name, field, k));
+      for (int k = 0; k < field_named(field).components; ++k)
+        known.push_back(fmt::format("probes.{}.{}.{}", p.name, field, k));
     }
   return std::find(known.begin(), known.end(), name) != known.end() ? "" : unknown_word("probe value", name, known);
 }

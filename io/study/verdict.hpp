@@ -1,12 +1,11 @@
 // The verdict on a run, from its summary and history: sound, or one word and a sentence for what was wrong.
 #pragma once
 #include <array>
-#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
+#include "io/results/read_summary.hpp"
 #include "kernels/traits.hpp"
 
 namespace nanson {
@@ -27,19 +26,6 @@ constexpr auto words(Verdict) {
   return std::array<std::string_view, 10>{"sound",        "energy grew",     "J <= 0",   "not finite", "dt collapse",
                                           "checkerboard", "iteration limit", "too slow", "stopped",    "failed"};
 }
-
-/// summary.json flattened: "energy.closure", "probes.tip.x.0"; null is left out.
-struct RunSummary {
-  std::map<std::string, double> numbers;
-  std::map<std::string, std::string> texts;
-};
-
-/// The columns of history.csv that a verdict needs; an empty one was not recorded.
-struct RunHistory {
-  std::vector<double> t;                                                      // [s]
-  std::vector<double> kinetic, strain, external_work, angular_momentum_work;  // [J]
-  std::vector<double> min_detF, min_J, min_tet_ratio;                         // [-]
-};
 
 /// What a child process left behind.
 struct RunOutcome {

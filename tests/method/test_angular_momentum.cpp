@@ -144,7 +144,7 @@ TEST(AngularMomentum, HeldVelocitiesStayExact) {
     if (f.patch >= 0 && kept.mesh.patch_names[static_cast<std::size_t>(f.patch)] == "zmax")
       for (int n : f.nodes) {
         double v[3];
-        field_at(kept.s, "velocity", n, v);
+        field_named("velocity").at(kept.s, n, v);
         EXPECT_NEAR(v[1], expected, 1e-14);
         ++driven;
       }

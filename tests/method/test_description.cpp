@@ -270,8 +270,8 @@ TEST(Description, MonitorsOfTheStateAsItStands) {
     advance(s);
     EXPECT_NEAR((s.books.dissipated - before) / 1e-9 / e.total, 1, 1e-3) << word(d);
     double H[9], F[9];
-    field_at(s, "H", 5, H);
-    field_at(s, "F", 5, F);
+    field_named("H").at(s, 5, H);
+    field_named("F").at(s, 5, F);
     EXPECT_NEAR(H[0], F[4] * F[8] - F[5] * F[7], 1e-14) << word(d);
   }
 }

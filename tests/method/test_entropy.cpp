@@ -92,8 +92,8 @@ TEST(EntropyProduction, IsTheDissipationOfTheAuditAndChangesNoBit) {
     double ours[9], theirs[9];
     entropy_production(s);
     for (int n = 0; n < s.domain.order.nodes; ++n) {
-      field_at(s, "P", n, ours);
-      field_at(unseen, "P", n, theirs);
+      field_named("P").at(s, n, ours);
+      field_named("P").at(unseen, n, theirs);
       for (int k = 0; k < 9; ++k) EXPECT_EQ(ours[k], theirs[k]);
     }
   }

@@ -68,8 +68,8 @@ TEST(LaggedCorrection, StandsInTheStressRowsButNotInWhatIsWritten) {
       of_rows = std::max(of_rows, std::abs(s.state.PH[s.state.now][r] - plain.state.PH[plain.state.now][r]));
       for (const char* name : {"P", "pressure", "von_mises"}) {
         double ours[9] = {}, theirs[9] = {};
-        field_at(s, name, n, ours);
-        field_at(plain, name, n, theirs);
+        field_named(name).at(s, n, ours);
+        field_named(name).at(plain, n, theirs);
         for (int k = 0; k < 9; ++k)
           EXPECT_NEAR(ours[k], theirs[k], 1e-11 * s.domain.coefficients.material.kappa) << name;
       }

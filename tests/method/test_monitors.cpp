@@ -37,7 +37,7 @@ TEST(Monitors, GiveTheirColumnsOnlyWhenAskedFor) {
                            "involution_J", "min_tet_ratio", "min_detF_over_J", "max_detF_over_J"})
     EXPECT_TRUE(has(columns, name)) << name;
   EXPECT_EQ(columns.size(), without + 9);
-  EXPECT_EQ(history_row(s, {}).size(), columns.size());
+  EXPECT_EQ(history_row(s, history_columns(s, {})).size(), columns.size());
   scene.physics.formulation = Formulation::pFJ;
   const Problem other(scene);
   const auto fewer = names(other.start());
@@ -181,8 +181,8 @@ TEST(Extremes, OfAStateAreThoseOfAPlainLoop) {
     }
     for (int n = 0; n < s.domain.order.nodes; ++n) {
       double d, J;
-      field_at(s, "detF", n, &d);
-      field_at(s, "J", n, &J);
+      field_named("detF").at(s, n, &d);
+      field_named("J").at(s, n, &J);
       least = std::min(least, d / J);
       most = std::max(most, d / J);
       const double* v = U_of(s, n);

@@ -337,7 +337,7 @@ TEST(Projection, AStressOfThePressureIsSphericalAndTheFieldSaysSo) {
     ASSERT_FALSE(s.breakdown);
     for (int n = 0; n < s.domain.order.nodes; ++n) {
       double pressure = 0;
-      field_at(s, "pressure", n, &pressure);
+      field_named("pressure").at(s, n, &pressure);
       EXPECT_NEAR(pressure, -U_of(s, n)[3], 1e-7 * 17e6);
     }
     const Energies e = energies(s);

@@ -44,7 +44,7 @@ inline SceneRun run_config(const std::string& scene, const std::vector<std::stri
   out.columns = history_columns(s, probes);
   Observer observer;
   observer.on_history = [&](const Simulation&) {
-    out.history.push_back(history_row(s, probes));
+    out.history.push_back(history_row(s, out.columns));
     const Energies e = energies(s);
     out.largest_energy = std::max(out.largest_energy,
                                   (e.kinetic + e.strain - s.books.external_work) / s.books.initial_energy);

@@ -31,8 +31,8 @@ Profile profile_of(const Simulation& s) {
     const double r = std::hypot(X[0], X[1], X[2]);
     const auto k = static_cast<std::size_t>(std::lround((r - m.inner) / (m.outer - m.inner) * cells));
     double p, P[9];
-    field_at(s, "pressure", n, &p);
-    field_at(s, "P", n, P);
+    field_named("pressure").at(s, n, &p);
+    field_named("P").at(s, n, P);
     out.r[k] = r;
     out.pressure[k] += share * p;
     for (int i = 0; i < 9; ++i) out.sigma_rr[k] += share * P[i] * X[i / 3] * X[i % 3] / (r * r);

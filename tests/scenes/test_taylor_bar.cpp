@@ -20,7 +20,7 @@ Pressure pressure_of(const Simulation& s) {
   std::vector<double> p(mesh.X.size());
   Pressure out;
   for (std::size_t n = 0; n < p.size(); ++n) {
-    field_at(s, "pressure", static_cast<int>(n), &p[n]);
+    field_named("pressure").at(s, static_cast<int>(n), &p[n]);
     out.least = std::min(out.least, p[n]);
     out.most = std::max(out.most, p[n]);
   }

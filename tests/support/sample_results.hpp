@@ -7,14 +7,9 @@
 #include <vector>
 
 #include "engine/mesh/mesh.hpp"
+#include "engine/output_field.hpp"
 
 namespace nanson::test {
-
-inline const FieldName& field_named(std::string_view name) {
-  for (const auto& field : field_names)
-    if (field.name == name) return field;
-  throw std::logic_error("no such field");
-}
 
 /// A beam of unit cubes along z, six tets each (Kuhn); the upper half is region "top".
 inline Mesh beam(int nx, int ny, int nz) {
@@ -43,7 +38,7 @@ inline Mesh beam(int nx, int ny, int nz) {
 }
 
 /// A bending beam, displacement = (0.02 t Z^2, 0, 0); any other field: 1000 t + node + component/16, exact in float.
-inline std::vector<float> sample_values(const Mesh& mesh, const FieldName& field, double t) {
+inline std::vector<float> sample_values(const Mesh& mesh, const Field& field, double t) {
   std::vector<float> values;
   values.reserve(mesh.X.size() * std::size_t(field.components));
   for (std::size_t a = 0; a < mesh.X.size(); ++a)

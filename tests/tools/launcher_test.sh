@@ -68,6 +68,12 @@ check "the log has every line" "$(grep -c '^\[' "$tree/build/build.log")" 5
 check "the program starts where the user stands, with all arguments" "$output" "nanson in $work/elsewhere got run scene.toml --set a.b=1"
 check "nothing is installed when nothing is missing" "$calls" "cmake*"
 
+fresh_tree
+launch --help
+check "help names the verbs, the launcher's own too" "$output" "*$tree/nanson run SCENE*$tree/nanson test *$tree/nanson bench *"
+check "and needs no build" "$calls" ""
+launch run scene.toml
+
 launch check scene.toml
 check "a second call builds nothing" "$calls" ""
 check "and says nothing of its own" "$messages" ""

@@ -248,7 +248,7 @@ def test_nothing_between_backquotes_runs():
 def test_bad_input_starts_nothing():
     Path("bad.toml").write_text((STUDIES / "smoke.toml").read_text().replace('"../', f'"{SOURCE}/configs/').replace("[6, 6, 6]", "[6, 6]").replace('"full"', '"fall"'))
     err = study("bad.toml", code=2)
-    assert err.startswith("bad.toml:10:38: physics.flux_correction = \"fall\"") and "\nbad.toml:11:39: mesh.cells = [6, 6]" in err and "\n2 errors: nothing was run or written" in err, err
+    assert err.startswith("bad.toml:11:38: physics.flux_correction = \"fall\"") and "\nbad.toml:12:39: mesh.cells = [6, 6]" in err and "\n2 errors: nothing was run or written" in err, err
     assert not Path("out").exists()
     assert "no such file" in study("none.toml", code=2)
 

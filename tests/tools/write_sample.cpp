@@ -15,8 +15,8 @@ int main(int count, char** arguments) {
   using namespace nanson;
   if (count != 2) return 2;
   const Mesh mesh = test::beam(2, 2, 12);
-  const std::vector<FieldName> fields{test::field_named("displacement"), test::field_named("velocity"),
-                                      test::field_named("pressure"), test::field_named("P")};
+  const std::vector<Field> fields{field_named("displacement"), field_named("velocity"), field_named("pressure"),
+                                  field_named("P")};
   const auto from = provenance();
   ResultsFolder folder("sample", arguments[1]);
   folder.begin(true);
@@ -26,7 +26,7 @@ int main(int count, char** arguments) {
   for (int i = 0; i < frames; ++i) {
     const double t = 0.25 * i;
     std::vector<float> values;
-    writer.frame(t, 100 * i, i + 1 == frames, [&](const FieldName& field) {
+    writer.frame(t, 100 * i, i + 1 == frames, [&](const Field& field) {
       values = test::sample_values(mesh, field, t);
       return std::span<const float>(values);
     });

@@ -19,9 +19,12 @@ flag = 1
 word = "kuhm"
 )";
 
+/// A key of the sample; what it holds does not matter to the reader.
+constexpr Key a_key(std::string_view path, KeyRules rules = {}) { return {path, {KeyType::number}, "-", "x", rules}; }
+
 struct Reading {
   toml::table entries = toml::parse(sample);
-  Diagnostics d{"f.toml", {}, {}};
+  Diagnostics d{"f.toml", {}, {}, {}};
   Table t{entries, "s", d};
 };
 
@@ -36,16 +39,16 @@ TEST(ConfigTable, WrongValueIsToldAndLeavesTheDefaultAlone) {
   std::string text = "default";
   std::vector<Word> names{{"default", {}, {}}};
   Split split = Split::alternating;
-  EXPECT_FALSE(r.t.read("number", number, {.below = 2}));
-  EXPECT_FALSE(r.t.read("wide", wide, {.to = 8}));
-  EXPECT_FALSE(r.t.read("wide", whole));
-  EXPECT_FALSE(r.t.read("far", whole));
-  EXPECT_FALSE(r.t.read("flag", flag));
-  EXPECT_FALSE(r.t.read("three", three));
-  EXPECT_FALSE(r.t.read("cells", cells));
-  EXPECT_FALSE(r.t.read("number", text));
-  EXPECT_FALSE(r.t.read("names", names));
-  EXPECT_FALSE(r.t.read("word", split));
+  EXPECT_FALSE(r.t.read(a_key("s.number", {.range = {.below = 2}}), number));
+  EXPECT_FALSE(r.t.read(a_key("s.wide", {.range = {.to = 8}}), wide));
+  EXPECT_FALSE(r.t.read(a_key("s.wide"), whole));
+  EXPECT_FALSE(r.t.read(a_key("s.far"), whole));
+  EXPECT_FALSE(r.t.read(a_key("s.flag"), flag));
+  EXPECT_FALSE(r.t.read(a_key("s.three"), three));
+  EXPECT_FALSE(r.t.read(a_key("s.cells"), cells));
+  EXPECT_FALSE(r.t.read(a_key("s.number"), text));
+  EXPECT_FALSE(r.t.read(a_key("s.names"), names));
+  EXPECT_FALSE(r.t.read(a_key("s.word"), split));
   EXPECT_EQ(number, 1);
   EXPECT_EQ(wide, 1);
   EXPECT_EQ(whole, 1);
@@ -62,8 +65,8 @@ TEST(ConfigTable, GoodValueIsRead) {
   Reading r;
   double number = 1;
   int whole = 1;
-  EXPECT_TRUE(r.t.read("number", number, {.above = 2, .below = 3}));
-  EXPECT_TRUE(r.t.read("whole", whole, {.from = 7, .to = 7}));
+  EXPECT_TRUE(r.t.read(a_key("s.number", {.range = {.above = 2, .below = 3}}), number));
+  EXPECT_TRUE(r.t.read(a_key("s.whole", {.range = {.from = 7, .to = 7}}), whole));
   EXPECT_EQ(number, 2.5);
   EXPECT_EQ(whole, 7);
   EXPECT_TRUE(r.d.found.empty());
@@ -72,9 +75,9 @@ TEST(ConfigTable, GoodValueIsRead) {
 TEST(ConfigTable, AbsentKeyIsFineUnlessRequired) {
   Reading r;
   double number = 1;
-  EXPECT_TRUE(r.t.read("absent", number));
+  EXPECT_TRUE(r.t.read(a_key("s.absent"), number));
   EXPECT_TRUE(r.t.sound("absent"));
-  EXPECT_FALSE(r.t.require("absent", number));
+  EXPECT_FALSE(r.t.read(a_key("s.absent", {.required = true}), number));
   EXPECT_FALSE(r.t.sound("absent"));
   EXPECT_EQ(number, 1);
 }
@@ -83,8 +86,8 @@ TEST(ConfigTable, WrongPartMakesTheWholeUnsound) {
   Reading r;
   Vec3 three{};
   std::vector<Word> names;
-  r.t.read("three", three);
-  r.t.read("names", names);
+  r.t.read(a_key("s.three"), three);
+  r.t.read(a_key("s.names"), names);
   EXPECT_FALSE(r.t.sound("three"));
   EXPECT_FALSE(r.t.sound("names"));
   EXPECT_TRUE(r.t.sound("number"));
@@ -100,7 +103,7 @@ TEST(ConfigTable, FailureOfAnAbsentKeyIsAtItsTable) {
 TEST(ConfigTable, KeysThatWereNotAskedForAreReportedAtTheEnd) {
   Reading r;
   double number = 0;
-  r.t.read("number", number);
+  r.t.read(a_key("s.number"), number);
   r.t.pass(std::array<std::string_view, 6>{"whole", "far", "wide", "three", "cells", "names"});
   r.t.only("kind", {}, std::array<std::string_view, 1>{"word"});
   r.t.finish();

@@ -203,18 +203,19 @@ TEST(Scene, FeaturesThatAreNotBuiltAreUnknown) {
 }
 
 TEST(Scene, SectionsOfTheWrongShapeAreRefused) {
-  expect_each_refused(small_scene,
-                      {
-                          {"scene = \"small\"", "scene = \"small\"\nphysics = 3",
-                           "scene.toml:2:11: physics = 3: must be a table, written [physics] or physics = { ... }"},
-                          {"scene = \"small\"", "scene = \"small\"\nboundary = { face = \"a\" }",
-                           "scene.toml:2:12: boundary: must be a list of tables, each written [[boundary]]"},
-                          {"scene = \"small\"", "scene = \"small\"\nboundary = [ 1 ]",
-                           "scene.toml:2:14: boundary.0 = 1: must be a table, written [[boundary]]"},
-                          {"box = { size = [1, 2, 3] }", "box = 1", "scene.toml:3:7: mesh.box = 1: must be a table"},
-                          {"[time]", "[output]\nprobes = { tip = 3 }\n[time]",
-                           "scene.toml:10:18: output.probes.tip = 3: must be a table"},
-                      });
+  expect_each_refused(
+      small_scene, {
+                       {"scene = \"small\"", "scene = \"small\"\nphysics = 3",
+                        "scene.toml:2:11: physics = 3: must be a table, written physics = { formulation = \"pFJ\" }"},
+                       {"scene = \"small\"", "scene = \"small\"\nboundary = { face = \"a\" }",
+                        "scene.toml:2:12: boundary: must be a list of tables, written boundary = [{ face = \"zmin\", "
+                        "kind = \"fixed\" }]"},
+                       {"scene = \"small\"", "scene = \"small\"\nboundary = [ 1 ]",
+                        "scene.toml:2:14: boundary.0 = 1: must be a table, written boundary = [{ face = \"zmin\""},
+                       {"box = { size = [1, 2, 3] }", "box = 1", "scene.toml:3:7: mesh.box = 1: must be a table"},
+                       {"[time]", "[output]\nprobes = { tip = 3 }\n[time]",
+                        "scene.toml:10:18: output.probes.tip = 3: must be a table"},
+                   });
 }
 
 TEST(Scene, NameMustBePlainBecauseItBecomesAFolder) {
@@ -293,7 +294,7 @@ probes = { tip = { at = [0, 0], fields = [] } }
   const std::vector<std::string> expected = {
       "scene.toml:1:1: title = \"x\": unknown key, allowed: scene | mesh | material | physics | projection | initial | "
       "boundary | body_force | time | output | monitor",
-      "scene.toml:1:1: time: is missing",
+      "scene.toml:1:1: time: is missing, written time = { end = 0.01 }",
       "scene.toml:2:9: scene = \"twisting column\": names a folder: use letters, digits, - and _ only",
       "scene.toml:4:10: monitor.energy = 1: must be true or false",
       "scene.toml:6:57: mesh.box.size.2 = 0: must be above 0",

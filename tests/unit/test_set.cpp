@@ -73,8 +73,10 @@ TEST(Set, NewListIsWrittenAsAValue) {
   const Scene s = read_set({"boundary=[{ face = \"zmin\", kind = \"fixed\" }]"}, small_scene);
   ASSERT_EQ(s.boundary.size(), 1u);
   EXPECT_EQ(s.boundary[0].faces[0].where, "--set #1");
-  expect_error({"boundary.zmin.kind=fixed"}, "--set #1: boundary: must be a list of tables, each written [[boundary]]",
-               small_scene);
+  expect_error(
+      {"boundary.zmin.kind=fixed"},
+      "--set #1: boundary: must be a list of tables, written boundary = [{ face = \"zmin\", kind = \"fixed\" }]",
+      small_scene);
 }
 
 TEST(Set, UnknownListEntryIsRefused) {

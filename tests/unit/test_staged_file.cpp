@@ -44,12 +44,12 @@ namespace {
 using test::beam;
 using test::sample_values;
 
-const std::vector<FieldName> two_fields{test::field_named("velocity"), test::field_named("pressure")};
+const std::vector<Field> two_fields{field_named("velocity"), field_named("pressure")};
 
 void write_next(FieldWriter& writer, const Mesh& mesh) {
   const double t = double(writer.frames());
   std::vector<float> values;
-  writer.frame(t, long(writer.frames()), false, [&](const FieldName& field) {
+  writer.frame(t, long(writer.frames()), false, [&](const Field& field) {
     values = sample_values(mesh, field, t);
     return std::span<const float>(values);
   });

@@ -16,12 +16,11 @@ namespace {
 using hdf5::Dims;
 using std::int64_t;
 using test::beam;
-using test::field_named;
 using test::read;
 using test::sample_values;
 
-std::vector<FieldName> fields(std::initializer_list<const char*> names) {
-  std::vector<FieldName> out;
+std::vector<Field> fields(std::initializer_list<const char*> names) {
+  std::vector<Field> out;
   for (const char* name : names) out.push_back(field_named(name));
   return out;
 }
@@ -31,14 +30,14 @@ void write_frames(FieldWriter& writer, const Mesh& mesh, int count, bool last_is
   for (int i = 0; i < count; ++i) {
     const double t = 0.5 * double(writer.frames());
     std::vector<float> values;
-    writer.frame(t, 10 * long(writer.frames()), last_is_broken && i + 1 == count, [&](const FieldName& field) {
+    writer.frame(t, 10 * long(writer.frames()), last_is_broken && i + 1 == count, [&](const Field& field) {
       values = sample_values(mesh, field, t);
       return std::span<const float>(values);
     });
   }
 }
 
-void expect_frames(const std::filesystem::path& path, const Mesh& mesh, const std::vector<FieldName>& names,
+void expect_frames(const std::filesystem::path& path, const Mesh& mesh, const std::vector<Field>& names,
                    std::size_t count) {
   const auto file = test::open_to_read(path);
   ASSERT_EQ(test::frame_count(file), count);
@@ -255,7 +254,7 @@ TEST(WriteFields, AFieldOfTheWrongLengthIsRefused) {
   const Mesh mesh = beam(1, 1, 1);
   FieldWriter writer(folder.path(), mesh, fields({"J"}), {}, 0);
   const std::vector<float> short_field(7);
-  EXPECT_THROW(writer.frame(0, 0, false, [&](const FieldName&) { return std::span<const float>(short_field); }),
+  EXPECT_THROW(writer.frame(0, 0, false, [&](const Field&) { return std::span<const float>(short_field); }),
                std::logic_error);
   write_frames(writer, mesh, 1);
   expect_frames(folder / "run.vtkhdf", mesh, fields({"J"}), 1);
