@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "engine/monitor.hpp"
 #include "engine/pressure_solver.hpp"
 
 namespace nanson {
@@ -37,6 +38,13 @@ std::string limit_met(const Simulation& s, int number, const Residual& r) {
       spec.max_iterations, number + 1, s.state.step + 1, s.state.t + s.state.dt, r.norm / r.scale, spec.tolerance);
 }
 
+std::string given_up(const Simulation& s, int number, const Residual& r) {
+  return fmt::format(
+      "asked to stop within the projection of stage {} of step {}: its residual is {:.3g} of the velocity gradient, "
+      "projection.tolerance = {:g}",
+      number + 1, s.state.step + 1, r.norm / r.scale, s.domain.scene->projection.tolerance);
+}
+
 /// Velocity and pressure of U[1] until the constraint holds. A state that is not finite is left to the stress sweep, which reports it.
 std::string solve_constraint(Simulation& s, const ProjectionRows& rows, int number) {
   const ProjectionSpec& spec = s.domain.scene->projection;
@@ -51,6 +59,10 @@ std::string solve_constraint(Simulation& s, const ProjectionRows& rows, int numb
     if (spent >= spec.max_iterations) return limit_met(s, number, r);
     const int iterations =
         solve_pressure(s, rows, r.norm, goal, static_cast<int>(spec.max_iterations - spent)).iterations;
+    if (asked_to_stop(p, spent + iterations)) {
+      warn(s, "given_up", given_up(s, number, r));
+      return {};
+    }
     spent += iterations;
     p.iterations += iterations;
     p.step_iterations += iterations;

@@ -45,7 +45,7 @@ PressureSolve conjugate_gradients(Sweeps& sweep, double norm, double goal, int m
   PressureSolve out{0, norm};
   Three z = sweep.step(0, 0);
   sweep.direction(sweep.mean(z.s[2]), 0);
-  while (out.norm > goal && out.iterations < most) {
+  while (out.norm > goal && out.iterations < most && !asked_to_stop(sweep.s.state.projection, out.iterations)) {
     sweep.force(0, sweep.k.dt);
     const Three Kd = sweep.apply();
     ++out.iterations;
@@ -72,7 +72,7 @@ PressureSolve pseudo_time(Sweeps& sweep, double length, double norm, double goal
   std::fill(p.removed.begin(), p.removed.end(), 0.0);
   PressureSolve out{0, norm};
   double mean = 0, sum = 0;
-  while (out.norm > goal && out.iterations < most) {
+  while (out.norm > goal && out.iterations < most && !asked_to_stop(p, out.iterations)) {
     sum = sum_over_parts(s, [&](int i) {
       return pseudo_pressure_part(s.domain.projection.parts[i], sweep.rows, sweep.k, gamma * dtau, mean);
     });
@@ -94,6 +94,11 @@ ProjectionCoefficients projection_coefficients(const Simulation& s) {
   ProjectionCoefficients k = s.domain.projection.coefficients;
   k.dt = s.state.dt;
   return k;
+}
+
+bool asked_to_stop(const Projection& p, long iterations) {
+  constexpr long patience = 1000;  // a stage takes ten or so: what a signal finds at work ends as it would without
+  return iterations >= patience && p.asked_to_stop && p.asked_to_stop();
 }
 
 ProjectionRows projection_rows(Simulation& s, int from, int to) {

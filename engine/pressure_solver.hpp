@@ -18,6 +18,9 @@ ProjectionRows projection_rows(Simulation& s, int from, int to);
 /// Adds delta to the pressure and its force to the velocity until the norm is at most `goal` or `most` iterations are spent; `norm` is that of R.
 PressureSolve solve_pressure(Simulation& s, const ProjectionRows& rows, double norm, double goal, int most);
 
+/// Whether a solve that has taken so many iterations is to be given up for a signal or the time: never before the 1,000th.
+bool asked_to_stop(const Projection& p, long iterations);
+
 /// Sums of term(part) over the parts without padding, in an order that no thread count changes.
 template <class Term>
 Three sum_three(const Simulation& s, Term term) {

@@ -1,6 +1,7 @@
 // What the incompressible scheme adds to domain and state: which nodes it projects and what holds them; edge rows, cofactors, volume taken by the stabilisation, vectors of the
 // iteration, and its counts.
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct Projection {
   long iterations = 0, rounds = 0, stages = 0;  // of the run: iterations, solves with a residual of their own, stages
   double residual = 0;                          // of the last stage, relative to the tolerance's scale
   long step_iterations = 0;                     // of the last step
+  std::function<bool()> asked_to_stop;          // looked at by solves that go on for long; empty: never
 };
 
 }  // namespace nanson

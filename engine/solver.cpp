@@ -134,6 +134,12 @@ double next_step(const Simulation& s) {
   return left <= dt ? left : left < 2 * dt ? 0.5 * left : dt;
 }
 
+/// The first multiple of `every` after t; t itself where multiples are too close for t's digits: then every step has a frame.
+double next_multiple(double every, double t) {
+  const double next = every * (std::floor(t / every) + 1);
+  return next > t && next <= t + every ? next : t;
+}
+
 /// Whether to go on after a step: done (so far) | breakdown | stopped, with the reason.
 std::string judge_step(Simulation& s, const std::function<std::string()>& asked_to_stop, std::string& reason) {
   const TimeSpec& time = s.domain.scene->time;
@@ -228,7 +234,7 @@ std::string run(Simulation& s, const Observer& observer, std::string& reason) {
     if (status == "done" && scene.output.every > 0 && u.t >= u.next_frame) {
       tell(observer.on_frame);
       u.last_frame = u.step;
-      while (u.next_frame <= u.t) u.next_frame += scene.output.every;
+      u.next_frame = next_multiple(scene.output.every, u.t);
     }
   }
   read_clocks();

@@ -118,9 +118,13 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
       return std::span<const float>(buffer);
     });
   };
+  s.state.projection.asked_to_stop = [most_s = scene.time.max_wall_s, start = wall_seconds()] {
+    return stop_signal() != 0 || (most_s > 0 && wall_seconds() - start >= most_s);
+  };
   observer.stop = [] { return stop_signal() ? fmt::format("signal {}", stop_signal()) : std::string(); };
   std::string reason;
   const std::string status = run(s, observer, reason);
+  fields.finish();
   Summary summary = summarise(s, probes, status, reason);
   summary.peak_bytes = peak_bytes();  // before the bandwidth is measured, which takes 128 MB
   summary.throughput = throughput(s, 0);

@@ -21,6 +21,7 @@ namespace {
 using hdf5::Dims;
 using hdf5::Handle;
 using std::int64_t;
+using Clock = std::chrono::steady_clock;
 
 /// SEMI: closing a file while a handle is open is an error, where HDF5 would otherwise leave the file open without a word.
 /// Earliest format: no consistency flags, which would make the file of a killed run unreadable, and the tables that io/staged_file knows.
@@ -179,8 +180,26 @@ void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get
   }
   xdmf_frames_ += xdmf_frame({path_.filename().string(), nodes_, tets_}, fields_, frames_, t, breakdown);
   ++frames_;
+  const bool many = frames_ - xdmf_count_ > frames_ / 8;
+  const auto since = Clock::now() - xdmf_written_;
+  if (breakdown || many || (since > std::chrono::seconds(1) && since > 20 * xdmf_cost_)) finish();
+}
+
+void FieldWriter::finish() {
+  if (xdmf_count_ == frames_) return;
+  const auto start = Clock::now();
   auto xdmf = path_;
   replace_file(xdmf.replace_extension(".xdmf"), xdmf_file(xdmf_frames_));
+  xdmf_count_ = frames_;
+  xdmf_written_ = Clock::now();
+  xdmf_cost_ = xdmf_written_ - start;
+}
+
+/// After an error the frames before it are listed all the same, where there is room for that.
+FieldWriter::~FieldWriter() {
+  try {
+    finish();
+  } catch (const std::exception&) {}
 }
 
 /// All data first, flushed; then the count that makes the frame visible. Every handle is closed before the file.

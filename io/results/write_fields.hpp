@@ -5,6 +5,7 @@
 // /VTKHDF/Steps/...                                                 times and offsets; the attribute NSteps counts the frames that are whole
 // /frames/NNNNNN/NAME [nodes, components]                           one frame, no data of its own; the group has time, step and perhaps breakdown = 1
 #pragma once
+#include <chrono>
 #include <cstddef>
 #include <filesystem>
 #include <functional>
@@ -34,6 +35,12 @@ class FieldWriter {
   /// readable, and the frame can be tried again.
   void frame(double t, long step, bool breakdown, const GetField& get);
 
+  /// run.xdmf with every frame so far: between its ends it may lag behind, by a second or an eighth of the frames, as each time the whole of it is written.
+  void finish();
+  ~FieldWriter();
+  FieldWriter(const FieldWriter&) = delete;
+  FieldWriter& operator=(const FieldWriter&) = delete;
+
   std::size_t frames() const { return frames_; }
 
  private:
@@ -45,7 +52,10 @@ class FieldWriter {
   int compress_;
   int patience_ = most_patience;  // [ms] to wait for another program that holds the file
   std::size_t frames_ = 0;
-  std::string xdmf_frames_;  // the text of the frames so far, so that a frame costs its own text only
+  std::string xdmf_frames_;     // the text of the frames so far, so that a frame costs its own text only
+  std::size_t xdmf_count_ = 0;  // frames in run.xdmf
+  std::chrono::steady_clock::time_point xdmf_written_{};
+  std::chrono::steady_clock::duration xdmf_cost_{};  // of writing it
 };
 
 }  // namespace nanson

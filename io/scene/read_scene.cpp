@@ -5,6 +5,7 @@
 #include <optional>
 #include <sstream>
 
+#include "io/scene/parse_toml.hpp"
 #include "io/scene/scene_sections.hpp"
 #include "io/scene/settings.hpp"
 #include "io/text_file.hpp"
@@ -17,7 +18,7 @@ namespace fs = std::filesystem;
 
 std::optional<toml::table> parse_text(const std::string& text, Diagnostics& d) {
   try {
-    return toml::parse(text);
+    return parse_toml(text);
   } catch (const toml::parse_error& e) {
     report(d, place_of(e.source()), std::string(e.description()));
     return std::nullopt;

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "io/scene/parse_toml.hpp"
 #include "io/scene/words.hpp"
 
 namespace nanson {
@@ -28,7 +29,7 @@ void reject(const Setting& s, std::string_view why, Diagnostics& d) {
 std::optional<std::vector<std::string>> parse_path(std::string_view key) {
   std::vector<std::string> path;
   try {
-    const toml::table tree = toml::parse(std::string(key) + " = 0");
+    const toml::table tree = parse_toml(std::string(key) + " = 0");
     if (tree.empty()) return std::nullopt;  // the key was a comment
     for (const toml::table* t = &tree; t; t = t->begin()->second.as_table()) path.emplace_back(t->begin()->first.str());
   } catch (const toml::parse_error&) {
@@ -39,13 +40,13 @@ std::optional<std::vector<std::string>> parse_path(std::string_view key) {
 
 std::optional<toml::table> parse_value(std::string_view value, long number, std::string& why) {
   try {
-    return toml::parse(fmt::format("value = {}", value), source_of_setting(number));
+    return parse_toml(fmt::format("value = {}", value), source_of_setting(number));
   } catch (const toml::parse_error& e) {
     why = e.description();
   }
   if (!is_bare_word(value)) return std::nullopt;
   try {
-    return toml::parse(fmt::format("value = \"{}\"", value), source_of_setting(number));
+    return parse_toml(fmt::format("value = \"{}\"", value), source_of_setting(number));
   } catch (const toml::parse_error&) {
     return std::nullopt;  // not UTF-8, as `why` says
   }

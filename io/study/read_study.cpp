@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "io/scene/config_table.hpp"
+#include "io/scene/parse_toml.hpp"
 #include "io/study/read_study_report.hpp"
 #include "io/study/study_keys.hpp"
 #include "io/text_file.hpp"
@@ -14,6 +16,8 @@ namespace nanson {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr long most_runs = 100'000;  // each is planned, read and checked before the first one starts
 
 /// Keys of a table in the order of the file; toml++ sorts them by the alphabet.
 std::vector<std::pair<std::string, const toml::node*>> entries_of(const toml::table& table) {
@@ -90,25 +94,23 @@ void read_vary(Table& t, std::vector<StudyAxis>& axes) {
     if (const auto* range = value->as_table()) read_range(d, *range, path, axis);
     else if (!list || list->empty())
       report(d, *value, path, "must be a list of values, at least one, or a range { from, to, count }");
+    std::set<std::string> known;
     for (std::size_t i = 0; list && i < list->size(); ++i) {
       const toml::node& one = (*list)[i];
       axis.values.push_back({key, toml_text(one), where(d, place_of(one.source()))});
-      const auto same = [&](const StudySetting& s) { return s.value == axis.values.back().value; };
-      if (std::count_if(axis.values.begin(), axis.values.end(), same) > 1) report(d, one, path, "is listed twice");
+      if (!known.insert(axis.values.back().value).second) report(d, one, path, "is listed twice");
     }
     if (!axis.values.empty()) axes.push_back(std::move(axis));
   }
 }
 
 void read_cases(Table& root, Study& study, const fs::path& folder) {
+  std::set<std::string> names;
   root.list(study_key("case"), [&](Table& t) {
     StudyCase c;
     std::string scene;
-    if (t.read(study_key("case.name"), c.name)) {
-      const auto same = [&](const StudyCase& other) { return other.name == c.name; };
-      if (c.name.empty() || std::any_of(study.cases.begin(), study.cases.end(), same))
-        t.fail("name", "must be a name of its own");
-    }
+    if (t.read(study_key("case.name"), c.name) && (c.name.empty() || !names.insert(c.name).second))
+      t.fail("name", "must be a name of its own");
     if (t.read(study_key("case.scene"), scene) && t.has("scene")) c.scene = (folder / scene).lexically_normal();
     read_settings(t, study_key("case.set"), c.settings);
     study.cases.push_back(std::move(c));
@@ -133,6 +135,10 @@ void read_root(Table& root, Study& s, const fs::path& folder) {
   if (!root.has("scene") && !all_own) root.missing({"scene"}, "scene: is missing, or every [[case]] needs its own");
   if (s.vary.empty() && s.cases.empty() && !root.has("vary") && !root.has("case"))
     root.missing({"vary", "case"}, "a study needs [vary] or [[case]]: what its runs differ in");
+  double runs = s.cases.empty() ? 1 : static_cast<double>(s.cases.size());
+  for (const StudyAxis& axis : s.vary) runs *= static_cast<double>(axis.values.size());
+  if (runs > most_runs)
+    root.fail(s.vary.empty() ? "case" : "vary", fmt::format("makes {:.6g} runs, allowed are {}", runs, most_runs));
   set_report_defaults(s);
   root.section(study_key("report"), [&](Table& t) { read_study_report(t, s, folder); });
   if (!root.has("report") && root.sound("kind") && s.kind != StudyKind::stability)
@@ -174,7 +180,7 @@ StudyResult read_study(const fs::path& file) {
     return r;
   }
   try {
-    const toml::table tree = toml::parse(*text);
+    const toml::table tree = parse_toml(*text);
     Table root(tree, "", d);
     read_root(root, r.study, file.parent_path());
     root.finish();

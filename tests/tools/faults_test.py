@@ -112,6 +112,43 @@ def test_signals_leave_last_frame_and_summary():
         assert summary(f"o{how}")["status"] == "stopped" and summary(f"o{how}")["cause"] == "signal"
 
 
+def test_frames_closer_than_steps_are_one_a_step():
+    """And no number of them makes the loop deaf to its time."""
+    for every in "1e-12", "1e-30", "1e-300", "5e-324":
+        run("--force", "--set", f"output.every={every}", "--set", "time.max_steps=5", timeout=10)
+        assert Path("results/tiny/run.xdmf").read_text().count("<Time") == 6
+    run("--force", "--set", "output.every=1e-30", "--set", "time.max_wall_s=0.5", "--set", "time.end=1000", timeout=10)
+    assert summary("results/tiny")["cause"] == "max_wall_s"
+    times = [float(t.split('"')[0]) for t in Path("results/tiny/run.xdmf").read_text().split('<Time Value="')[1:]]
+    assert times[-1] == summary("results/tiny")["t_end"] and times == sorted(set(times))
+
+
+def test_a_projection_without_end_hears_signals_and_the_time():
+    text = TINY.replace("poissons_ratio = 0.3", 'poissons_ratio = 0.5\n[physics]\nformulation = "pFp"\n[projection]\ntolerance = 1e-300\nmax_iterations = 2147483647')
+    Path("tiny.toml").write_text(text)
+    for solver in "cg", "pseudo_time":
+        solve = ["--set", f"projection.solver={solver}"] + (["--set", "projection.length_scale=1"] if solver == "pseudo_time" else [])
+        run("--force", *solve, "--set", "time.max_wall_s=1", timeout=20)
+        assert summary("results/tiny")["cause"] == "max_wall_s"
+        process = subprocess.Popen([NANSON, "run", "tiny.toml", "--threads", "1", "--quiet", "--force", *solve], stderr=subprocess.PIPE)
+        time.sleep(1)
+        process.send_signal(signal.SIGTERM)
+        err = process.communicate(timeout=10)[1]
+        assert process.returncode == 128 + signal.SIGTERM and b"asked to stop within the projection" in err, err
+
+
+def test_input_that_is_meant_to_hurt_is_refused():
+    deep = ".".join(["a"] * 40000)
+    Path("deep.toml").write_text(TINY + deep + " = 1\n")
+    err = nanson("check", "deep.toml", code=2).stderr
+    assert "deep.toml:18:128: a key of more than 64 parts" in err, err[-300:]
+    nanson("check", "tiny.toml", "--set", deep + "=1", code=2)
+    ranges = "\n".join(f'"{key}" = {{ from = 1.0, to = 2.0, count = 1000 }}' for key in ("time.end", "material.density", "material.youngs_modulus", "initial.omega"))
+    Path("bomb.toml").write_text(f'study = "bomb"\nkind = "sweep"\nscene = "tiny.toml"\n[vary]\n{ranges}\n[report]\ny = ["steps"]\n')
+    err = nanson("study", "bomb.toml", code=2, timeout=10).stderr
+    assert "makes 1e+12 runs, allowed are 100000" in err, err
+
+
 def test_nothing_is_overwritten_without_a_word():
     run("--quiet")
     first = summary("results/tiny")

@@ -145,6 +145,33 @@ TEST(WriteFields, TheSidecarHasATimeForEveryFrame) {
   EXPECT_FALSE(std::filesystem::exists(folder / "run.xdmf.tmp"));
 }
 
+TEST(WriteFields, TheSidecarOfManyFramesIsWrittenNowAndThenAndWholeAtTheEnd) {
+  const test::TemporaryFolder folder;
+  const Mesh mesh = beam(1, 1, 1);
+  const auto count = [&] {
+    const std::string xdmf = test::read_text(folder / "run.xdmf");
+    std::size_t frames = 0;
+    for (auto at = xdmf.find("<Time"); at != std::string::npos; at = xdmf.find("<Time", at + 1)) ++frames;
+    return frames;
+  };
+  std::size_t writes = 0, before = 0;
+  {
+    FieldWriter writer(folder.path(), mesh, fields({"J"}), {}, 0);
+    for (std::size_t frame = 1; frame <= 200; ++frame) {
+      write_frames(writer, mesh, 1);
+      const std::size_t now = count();
+      EXPECT_GE(now + frame / 8, frame);
+      writes += now != before;
+      before = now;
+    }
+    EXPECT_LT(writes, 60u);
+    writer.finish();
+    EXPECT_EQ(count(), 200u);
+    write_frames(writer, mesh, 1);
+  }
+  EXPECT_EQ(count(), 201u);  // the end of a writer, as after an error
+}
+
 TEST(WriteFields, AttributesHoldTextOfAnyLength) {
   const test::TemporaryFolder folder;
   const std::string scene = "# \u00e9 \"quoted\"\n" + std::string(200000, 'x');
