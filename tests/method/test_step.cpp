@@ -11,17 +11,21 @@ namespace {
 
 TEST(Setup, ItsStepsAreTimedOneByOneWithMetisApart) {
   const Problem problem(free_bar(12));
-  const double start = wall_seconds();
-  const Simulation s = problem.start();
-  const double seconds = wall_seconds() - start;
-  std::vector<std::string> names;
-  for (const SweepTime& part : s.team.setup.sweeps) {
-    names.push_back(part.sweep);
-    EXPECT_GT(part.seconds, 0) << part.sweep;
+  double largest_share = 0;  // of the whole; on a busy machine any one try may be held up between two of them
+  for (int attempt = 0; attempt < 20 && largest_share <= 0.5; ++attempt) {
+    const double start = wall_seconds();
+    const Simulation s = problem.start();
+    const double seconds = wall_seconds() - start;
+    std::vector<std::string> names;
+    for (const SweepTime& part : s.team.setup.sweeps) {
+      names.push_back(part.sweep);
+      EXPECT_GT(part.seconds, 0) << part.sweep;
+    }
+    EXPECT_EQ(names, (std::vector<std::string>{"dual", "order", "metis", "state", "initial"}));
+    EXPECT_LE(s.team.setup.total(), seconds);
+    largest_share = std::max(largest_share, s.team.setup.total() / seconds);
   }
-  EXPECT_EQ(names, (std::vector<std::string>{"dual", "order", "metis", "state", "initial"}));
-  EXPECT_LE(s.team.setup.total(), seconds);
-  EXPECT_GT(s.team.setup.total(), 0.5 * seconds) << "nothing that takes long is left out";
+  EXPECT_GT(largest_share, 0.5) << "nothing that takes long is left out";
 }
 
 /// min l/c_p times cfl at F = I, straight from the mesh: l = 6 Omega / sum |C|, the node's shortest edge, the mesh's shortest edge.

@@ -4,7 +4,7 @@
 namespace nanson {
 namespace {
 
-TEST(Satellite, KeepsItsAngularMomentumForTwoSeconds) {
+TEST(Satellite, KeepsItsAngularMomentumForTwoSecondsAndItsArmsStayWhereTheyWere) {
   for (const std::string formulation : {"pF", "pFJ"}) {
     const std::vector<std::string> settings{"time.end=2.0", "physics.formulation=" + formulation};
     const SceneRun kept = run_config("satellite.toml", settings);
@@ -13,6 +13,12 @@ TEST(Satellite, KeepsItsAngularMomentumForTwoSeconds) {
     EXPECT_LE(kept.summary.linear_momentum_drift, 1e-12) << formulation;
     EXPECT_LT(*kept.summary.energy.closure, 1e-3) << formulation;
     EXPECT_LE(kept.largest_energy, 1 + 1e-6) << formulation;
+    if (formulation == "pFJ") {
+      EXPECT_NEAR(kept.summary.mass, 1.0134e5, 0.01e5);  // [kg] 1000 x volume of the faceted body
+      const auto& u = kept.summary.probes.at("arm").at("displacement");
+      EXPECT_NEAR(u[0], -5.735, 0.02);
+      EXPECT_NEAR(u[1], 7.269, 0.02);
+    }
     std::vector<std::string> plain = settings;
     plain.push_back("physics.keep_angular_momentum=false");
     const SceneRun lost = run_config("satellite.toml", plain);
@@ -20,14 +26,6 @@ TEST(Satellite, KeepsItsAngularMomentumForTwoSeconds) {
     EXPECT_LE(lost.summary.linear_momentum_drift, 1e-12) << formulation;
     EXPECT_LE(lost.largest_energy, 1 + 1e-6) << formulation;
   }
-}
-
-TEST(Satellite, ArmsReachTheFiguresMeasuredBefore) {
-  const SceneRun run = run_config("satellite.toml", {"time.end=2.0"});
-  EXPECT_NEAR(run.summary.mass, 1.0134e5, 0.01e5);  // [kg] 1000 x volume of the faceted body
-  const auto& u = run.summary.probes.at("arm").at("displacement");
-  EXPECT_NEAR(u[0], -5.735, 0.02);
-  EXPECT_NEAR(u[1], 7.269, 0.02);
 }
 
 /// Arms bend about concave edges, where nothing but D^J ties J to det F: tets turn inside out, unless the parting has an energy.

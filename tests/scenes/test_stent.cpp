@@ -1,4 +1,4 @@
-// The stent: its driven end goes where it must, the reactions carry the momentum, and it bends as measured before.
+// The stent: its driven end goes where it must, the reactions carry the momentum, and it bends as it did.
 #include <cmath>
 
 #include "tests/scenes/scene_run.hpp"
@@ -6,7 +6,7 @@
 namespace nanson {
 namespace {
 
-TEST(Stent, EndFollowsItsPathAndTheShellTheFiguresMeasuredBefore) {
+TEST(Stent, EndFollowsItsPathAndTheShellStaysWhereItWas) {
   for (const std::string formulation : {"pF", "pFJ"}) {  // the same pulse, earlier, so that the run is short
     const SceneRun run = run_config(
         "stent.toml", {"time.end=0.003", "boundary.end.time.centre=0.004", "physics.formulation=" + formulation,
@@ -29,7 +29,7 @@ TEST(Stent, EndFollowsItsPathAndTheShellTheFiguresMeasuredBefore) {
   }
 }
 
-TEST(Stent, PressedOnItsStripsBulgesAsMeasuredBefore) {
+TEST(Stent, PressedOnItsStripsStaysWhereItWas) {
   const SceneRun run = run_config("stent.toml", {"mesh.file=meshes/stent_strip.msh", "boundary.1.face=strip",
                                                  "time.end=0.003", "boundary.strip.time.centre=0.004",
                                                  "output.probes={strip={at=[0,0.005,0.01],fields=['displacement']},"

@@ -60,7 +60,7 @@ struct Row {
 };
 
 /// Other codes: radius 6.8 to 7.3 mm, length 21.4 to 21.7 mm on fine meshes.
-TEST(TaylorBar, EndsInTheMeasuredShape) {
+TEST(TaylorBar, ShapeStaysWhereItWas) {
   for (const Row& r : {Row{"[4,4,16]", 6.236e-3, 22.052e-3, 1.697}, Row{"[6,6,24]", 6.560e-3, 21.810e-3, 2.172}}) {
     const SceneRun run = run_config("taylor_bar.toml", {std::string("mesh.cells=") + r.cells});
     ASSERT_EQ(run.summary.status, "done") << r.cells;

@@ -9,7 +9,7 @@ struct Row {
   double tip[3], energy;  // [m] of the corner that starts at (0.5, 0.5, 6); E/E0
 };
 
-TEST(TwistingColumn, ReachesTheFiguresMeasuredBefore) {
+TEST(TwistingColumn, ReachesTheFiguresOfThePrototype) {
   for (const Row& r : {Row{"pF", "kuhn", "paper", "F", {0.543, 0.351, 6.013}, 0.755},
                        Row{"pF", "kuhn", "adjoint", "F", {0.544, 0.332, 6.018}, 0.738},
                        Row{"pF", "alternating", "paper", "F", {0.741, 0.194, 6.111}, 1.496},
@@ -42,7 +42,7 @@ TEST(TwistingColumn, ReachesTheFiguresMeasuredBefore) {
 }
 
 /// Total, Updated and pseudo Updated Lagrangian column (paper, section 6.5): the tip within 1 % of the column's length.
-TEST(TwistingColumn, DescriptionsAgree) {
+TEST(TwistingColumn, DescriptionsAgreeAndTheirEnergiesStayWhereTheyWere) {
   Vec3 tip[3];
   double energy[3];
   const char* const descriptions[] = {"total", "updated", "pseudo_updated"};

@@ -18,7 +18,7 @@ SceneRun run_column(int n, std::vector<std::string> settings) {
   return run_config("twisting_column_incompressible.toml", settings);
 }
 
-TEST(TwistingColumnIncompressible, ReachesTheFiguresMeasuredBefore) {
+TEST(TwistingColumnIncompressible, ReachesTheFiguresOfThePrototype) {
   for (const Row& r : {Row{4, "cg", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 7.1, 96},
                        Row{4, "pseudo_time", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 12, 96},
                        Row{6, "cg", 0.1, 0.949, {0.489, 0.513, 5.975}, {0.829, 1.230}, 0.087, 7.2, 144},

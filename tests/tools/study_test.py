@@ -25,7 +25,7 @@ def start(study, out="out", **more):
 
 def study(path, code=0, **more):
     process = start(path, **more)
-    out, err = process.communicate(timeout=120)
+    out, err = process.communicate(timeout=6000)
     assert process.returncode == code, (process.returncode, out, err)
     return err
 
@@ -125,7 +125,7 @@ def interrupted(how, code):
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
     process.send_signal(how)
-    out, err = process.communicate(timeout=60)
+    out, err = process.communicate(timeout=600)
     assert process.returncode == code, (process.returncode, err)
     kept = records()
     assert 2 <= len(kept) < 6, kept
