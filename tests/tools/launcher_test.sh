@@ -59,9 +59,6 @@ cd "$work" || exit 1
 mkdir -p elsewhere && cd elsewhere || exit 1
 
 fresh_tree
-launch --help
-check "help needs no build" "$calls" ""
-check "and names what the launcher does itself" "$output" "*nanson test*nanson bench*"
 launch run scene.toml --set a.b=1
 check "the first call configures with tests" "$calls" "*cmake -S $tree --preset release -DBUILD_TESTING=ON*"
 check "run builds the program only" "$calls" "*--target nanson --parallel*"
