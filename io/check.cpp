@@ -60,6 +60,7 @@ double timed_step(Simulation& s) {
 
 int check_scene(const Loaded& loaded, int threads) {
   const MeshQuality quality = mesh_quality(loaded.mesh);
+  for (const std::string& note : loaded.notes) print(stdout, "{}\n", note);
   print(stdout, "{}", to_text(quality));
   Simulation s = make_simulation(loaded.scene, loaded.mesh, threads);
   const double dt = allowed_step(s), steps = std::ceil(loaded.scene.time.end / dt);

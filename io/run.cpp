@@ -94,6 +94,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   const std::string earlier = folder.begin(options.force);
   if (!earlier.empty() && !options.force) print(stderr, "{}\n", earlier);  // with `quiet` too
   else if (!earlier.empty()) say(options, earlier);
+  for (const std::string& note : loaded.notes) say(options, note);
   print_start(options, s, probes, folder.path());
 
   const Provenance from = provenance();

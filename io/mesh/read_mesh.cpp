@@ -10,6 +10,7 @@
 #include <set>
 
 #include "io/mesh/msh_sections.hpp"
+#include "io/mesh/read_inp.hpp"
 #include "io/mesh/run_gmsh.hpp"
 
 namespace nanson {
@@ -26,8 +27,10 @@ std::string path_problem(const std::filesystem::path& path) {
   if (path.extension() == ".step" || path.extension() == ".stp")
     return fmt::format("mesh it first: gmsh -3 {} -o {}", path.string(),
                        std::filesystem::path(path).replace_extension(".msh").string());
-  if (path.extension() != ".msh" && path.extension() != ".geo")
-    return fmt::format("unknown file ending \"{}\": meshes are Gmsh .msh or .geo files", path.extension().string());
+  if (path.extension() != ".msh" && path.extension() != ".geo" && path.extension() != ".inp")
+    return fmt::format(
+        "unknown file ending \"{}\": meshes are Gmsh .msh or .geo files, or .inp decks of Abaqus or CalculiX",
+        path.extension().string());
   return {};
 }
 
@@ -143,8 +146,10 @@ struct MshFile {
 };
 
 /// Errors start with `name`.
-RawMesh read_file(const std::filesystem::path& msh, const std::string& name, std::vector<std::string>& errors) {
-  const Bytes bytes = read_bytes(msh);
+RawMesh read_file(const std::filesystem::path& file, const std::string& name, const UsedNames& used,
+                  std::vector<std::string>& errors, std::vector<std::string>& notes) {
+  if (file.extension() == ".inp") return read_inp(file, used, errors, notes);
+  const Bytes bytes = read_bytes(file);
   if (bytes.complete) return read_msh({bytes.data.get(), bytes.size}, name, errors);
   errors.push_back(name + ": cannot be read");
   return {};
@@ -173,10 +178,17 @@ RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<st
 RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& errors) {
   const MshFile file(path);
   for (const auto& problem : file.problems) errors.push_back(path.string() + ": " + problem);
-  return file.problems.empty() ? read_file(file.path, path.string(), errors) : RawMesh{};
+  std::vector<std::string> notes;
+  return file.problems.empty() ? read_file(file.path, path.string(), {}, errors, notes) : RawMesh{};
 }
 
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
+  std::vector<std::string> notes;
+  return load_mesh(spec, {}, errors, notes);
+}
+
+Mesh load_mesh(const MeshSpec& spec, const UsedNames& used, std::vector<std::string>& errors,
+               std::vector<std::string>& notes) {
   std::vector<std::string> problems;
   Mesh mesh;
   if (spec.source != MeshSource::file) {
@@ -193,8 +205,9 @@ Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors) {
     errors.push_back(fmt::format("{}: mesh.file = \"{}\": {}", spec.file.where, spec.file.name, problem));
   if (!file.problems.empty()) return mesh;
   const std::size_t before = errors.size();
-  RawMesh raw = read_file(file.path, spec.file.name, errors);
+  RawMesh raw = read_file(file.path, spec.file.name, used, errors, notes);
   if (errors.size() != before) return mesh;
+  keep_used_patches(raw, used);
   mesh = finish_mesh(std::move(raw), problems);
   for (const auto& problem : problems) errors.push_back(spec.file.name + ": " + problem);
   return mesh;

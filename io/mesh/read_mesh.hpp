@@ -1,11 +1,11 @@
-// Meshes from where the scene says: the built-in box, a .msh file, or a .geo file that the gmsh program meshes.
+// Meshes from where the scene says: a built-in one, a .msh file, a .geo file that the gmsh program meshes, or an .inp deck.
 #pragma once
 #include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "engine/mesh/mesh.hpp"
+#include "io/mesh/used_names.hpp"
 
 namespace nanson {
 
@@ -17,7 +17,11 @@ RawMesh read_mesh(const std::filesystem::path& path, std::vector<std::string>& e
 /// The same from bytes in memory; errors start with `name`.
 RawMesh read_msh(std::string_view bytes, const std::string& name, std::vector<std::string>& errors);
 
-/// Makes or reads the mesh of a scene and checks it; valid when no error was appended.
+/// Makes or reads the mesh of a scene and checks it; valid when no error was appended. Notes tell what a file holds besides.
+Mesh load_mesh(const MeshSpec& spec, const UsedNames& used, std::vector<std::string>& errors,
+               std::vector<std::string>& notes);
+
+/// The same where no name is used yet.
 Mesh load_mesh(const MeshSpec& spec, std::vector<std::string>& errors);
 
 }  // namespace nanson

@@ -11,11 +11,11 @@ std::optional<Loaded> load(const std::filesystem::path& file, const std::vector<
                            std::vector<std::string>& errors) {
   SceneResult read = read_scene(file, settings);
   errors = std::move(read.errors);
-  Loaded out{std::move(read.scene), {}, 0};
+  Loaded out{std::move(read.scene), {}, 0, {}};
   if (read.mesh_valid) {
     std::vector<std::string> mesh_errors;
     const double start = wall_seconds();
-    out.mesh = load_mesh(out.scene.mesh, mesh_errors);
+    out.mesh = load_mesh(out.scene.mesh, used_names(out.scene), mesh_errors, out.notes);
     out.mesh_s = wall_seconds() - start;
     if (mesh_errors.empty()) mesh_errors = check_names(out.scene, out.mesh);
     errors.insert(errors.end(), mesh_errors.begin(), mesh_errors.end());

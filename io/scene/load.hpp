@@ -13,7 +13,8 @@ namespace nanson {
 struct Loaded {
   Scene scene;
   Mesh mesh;
-  double mesh_s = 0;  // [s] to read or make it and to check it
+  double mesh_s = 0;               // [s] to read or make it and to check it
+  std::vector<std::string> notes;  // what its file holds besides
 };
 
 /// Nothing when something is wrong: all of it then stands in `errors`.

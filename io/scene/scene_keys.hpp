@@ -36,8 +36,9 @@ inline constexpr Key scene_keys[] = {
     {"mesh.needle.angle", of<&MeshSpec::angle>, "deg",
      "between opposite sides", {.required = true, .range = {.above = 0, .to = 90}}},
     {"mesh.file", {KeyType::text}, "",
-     "a Gmsh mesh .msh (4.1 or 2.2), or .geo, which the program gmsh meshes; relative to the scene's folder; "
-     "physical surfaces are its faces, physical volumes its regions", {.one_of = true}},
+     "a Gmsh mesh .msh (4.1 or 2.2), or .geo, which the program gmsh meshes: physical surfaces are its faces, physical "
+     "volumes its regions; or a deck .inp of Abaqus or CalculiX: surfaces, node sets and sets of triangles are its faces, "
+     "element sets its regions; relative to the scene's folder", {.one_of = true}},
     {"mesh.cells", of<&MeshSpec::cells>, "-", "cells along x, y and z", {.range = {.from = 1}, .of = "box"}},
     {"mesh.cells", of<&MeshSpec::cells>, "-",
      "radial, tangential (even) and axial cells; radial above half of tangential",

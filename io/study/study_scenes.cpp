@@ -25,19 +25,22 @@ struct MeshCache {
   std::vector<std::string> errors;
 };
 
-std::string mesh_key(const MeshSpec& m) {
-  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", word(m.source), fmt::join(m.origin, " "),
+std::string mesh_key(const MeshSpec& m, const UsedNames& used) {
+  return fmt::format("{} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {} {}", word(m.source), fmt::join(m.origin, " "),
                      fmt::join(m.size, " "), fmt::join(m.cells, " "), word(m.split), m.perturb, m.radius, m.length,
                      word(m.sector), m.inner, m.outer, m.angle, m.file.name, word(m.regions.axis),
-                     fmt::join(m.regions.at, " "), fmt::join(m.regions.names, " "));
+                     fmt::join(m.regions.at, " "), fmt::join(m.regions.names, " "), fmt::join(used.faces, " "),
+                     fmt::join(used.regions, " "));
 }
 
 const Mesh& mesh_of(MeshCache& cache, const Scene& scene) {
-  std::string key = mesh_key(scene.mesh);
+  const UsedNames used = used_names(scene);
+  std::string key = mesh_key(scene.mesh, used);
   if (cache.key == key) return cache.mesh;
   cache.key = std::move(key);
   cache.errors.clear();
-  cache.mesh = load_mesh(scene.mesh, cache.errors);
+  std::vector<std::string> notes;  // the runs tell them
+  cache.mesh = load_mesh(scene.mesh, used, cache.errors, notes);
   return cache.mesh;
 }
 
