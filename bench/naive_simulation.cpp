@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bench/naive_loop.hpp"
+#include "engine/material.hpp"
 
 namespace nanson {
 namespace {

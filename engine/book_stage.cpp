@@ -7,16 +7,13 @@
 namespace nanson {
 namespace {
 
-/// Power -sum p (S + theta-term) that the pressure's stabilisation and the drift control take [W]: p and S of the stage's start, the drift of the last projection.
-double pressure_stabilisation_power(const Simulation& s, const Rows& rows) {
-  const Aligned<double>& taken = s.state.projection.taken[rows.U_stage == s.state.U[0].data() ? 0 : 1];
+/// -sum over rows of p times what(row) [m^3/s]: power [W] that the pressures of the rows W lose to a volume's rate that is not the motion's.
+template <class What>
+double power_lost(const Simulation& s, const double* W, What what) {
   return -sum_over_parts(s, [&](int p) {
     const Part& part = s.domain.projection.parts[static_cast<std::size_t>(p)];
     double sum = 0;
-    for (int n = part.node_begin; n < part.node_end; ++n) {
-      const std::size_t i = static_cast<std::size_t>(n);
-      sum += rows.W[row::W * n + 3] * (taken[i] + (s.state.projection.fixed[i] - s.state.projection.lag[i]));
-    }
+    for (int n = part.node_begin; n < part.node_end; ++n) sum += W[row::W * n + 3] * what(static_cast<std::size_t>(n));
     return sum;
   });
 }
@@ -25,8 +22,16 @@ double pressure_stabilisation_power(const Simulation& s, const Rows& rows) {
 
 void book_dissipation(Simulation& s, const Rows& rows, double weighted_dt) {
   s.books.dissipated += weighted_dt * tree_sum(s.team.part_sums);
+  const Aligned<double>& taken = s.state.projection.taken[rows.U_stage == s.state.U[0].data() ? 0 : 1];
   if (s.domain.scene->physics.formulation == Formulation::pFp)
-    s.books.dissipated += weighted_dt * pressure_stabilisation_power(s, rows);
+    s.books.dissipated += weighted_dt * power_lost(s, rows.W, [&](std::size_t n) { return taken[n]; });
+}
+
+void book_drift_control(Simulation& s, double weighted_dt) {
+  const Projection& p = s.state.projection;
+  s.books.dissipated += weighted_dt * power_lost(s, s.state.W[s.state.now].data(), [&](std::size_t n) {
+                          return p.fixed[n] - p.lag[n];
+                        });
 }
 
 void book_stage(Simulation& s, const double* arms, double mean, bool first) {

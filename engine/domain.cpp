@@ -1,8 +1,7 @@
 // Set-up of all that a run does not change: dual, order, nodes, supports and loads, materials, part functions.
 #include "engine/domain.hpp"
 
-#include <stdexcept>
-
+#include "engine/input_error.hpp"
 #include "engine/material.hpp"
 #include "engine/node_geometry.hpp"
 
@@ -15,7 +14,9 @@ Dual checked_dual(const Mesh& mesh) {
   Dual dual = make_dual(mesh);
   const DualDefects d = check_dual(mesh, dual);
   if (!(d.closure < identity_tolerance && d.volume < identity_tolerance && d.edge < identity_tolerance))
-    throw std::runtime_error("the median dual of this mesh does not close: its tets are too flat for double precision");
+    throw InputError(
+        "mesh: its median dual does not close: tets too flat, or too small beside their coordinates, for double "
+        "precision");
   return dual;
 }
 
@@ -60,7 +61,7 @@ Domain make_domain(const Scene& scene, const Mesh& mesh, Clock& setup) {
     d.mixture = make_mixture(scene, materials, d.order, d.step_length);
     d.coefficients = coefficients_of(scene, d.order);
     d.rings = make_tet_rings(scene.physics.description, mesh, d.order);
-    d.projection = make_projection_setup(scene, d.order, d.boundary, d.X, d.coefficients.material);
+    d.projection = make_projection_setup(scene, d.order, d.boundary, d.X, d.coefficients.material, d.mixture);
     if (scene.monitor.geometry != GeometryWatch::off) d.tets = make_tets(mesh, d.order, d.X);
     d.manufactured = make_manufactured(scene, mesh, d.order);
     const bool audits = scene.monitor.energy;

@@ -204,13 +204,13 @@ std::map<std::string, double> exact_errors(const Simulation& s) {
   if (!has_exact_solution(*s.domain.scene)) return errors;
   const MaterialConstants& m = s.domain.coefficients.material;
   const auto P11 = [&](const PointState& p) { return exact_stress(s.domain.scene->material, m, p)[0][0]; };
-  const Vec3 middle = middle_of_box(*s.domain.mesh);
+  const Extent box = extent_of(*s.domain.mesh);
   CompensatedSum e1[2], e2[2], x1[3], x2[3];  // p1, P11; sizes of p1, P11 at t and P11 at t = 0
   for (int n = 0; n < s.domain.order.nodes; ++n) {
     const Vec3& X = s.domain.mesh->X[static_cast<std::size_t>(n)];
     const double V = s.domain.volume[static_cast<std::size_t>(n)];
-    const PointState now = exact_solution(*s.domain.scene, middle, X, s.state.t),
-                     start = exact_solution(*s.domain.scene, middle, X, 0);
+    const PointState now = exact_solution(*s.domain.scene, box, X, s.state.t),
+                     start = exact_solution(*s.domain.scene, box, X, 0);
     const double exact[3] = {m.rho * now.v[0], P11(now), P11(start)},
                  ours[2] = {m.rho * U_row(s, n)[0], P_at(s, n, 0, 0)};
     for (int k = 0; k < 3; ++k) {

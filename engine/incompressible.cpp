@@ -70,27 +70,35 @@ std::string solve_constraint(Simulation& s, const ProjectionRows& rows, int numb
   }
 }
 
-/// U^(n+1) = (U^n + U**)/2 (paper, eq. 50); at nu = 0.5 the pressure is the last stage's.
-void average_part(const Part& part, State& u, bool keeps_pressure) {
+double inverse_kappa(const Domain& d, int n) {
+  return d.mixture.empty() ? d.projection.coefficients.inverse_kappa : d.projection.inverse_kappa[n];
+}
+
+/// U = old U^n + stage U**, U** the stage's Euler step (paper, eq. 50); at nu = 0.5 the pressure is the last stage's.
+void average_part(const Part& part, const Domain& d, State& u, const ProjectedStage& rk) {
   Projection& p = u.projection;
+  const auto mean = [&](double old, double stage) { return rk.old * old + rk.stage * stage; };
   for (int n = part.node_begin; n < part.node_end; ++n) {
-    double *U = &u.U[0][row::U * static_cast<std::size_t>(n)], *last = &u.U[1][row::U * static_cast<std::size_t>(n)];
-    for (int k = 0; k < row::U; ++k) U[k] = k == 3 && keeps_pressure ? last[k] : 0.5 * (U[k] + last[k]);
-    p.volume[0][n] = 0.5 * (p.volume[0][n] + p.volume[1][n]);
-    p.taken[0][n] = 0.5 * (p.taken[0][n] + p.taken[1][n]);
+    const double *old = &u.U[0][row::U * static_cast<std::size_t>(n)],
+                 *stage = &u.U[1][row::U * static_cast<std::size_t>(n)];
+    double* U = &u.U[rk.to][row::U * static_cast<std::size_t>(n)];
+    const bool keeps_pressure = rk.to == 0 && inverse_kappa(d, n) == 0;
+    for (int k = 0; k < row::U; ++k) U[k] = k == 3 && keeps_pressure ? stage[k] : mean(old[k], stage[k]);
+    p.volume[rk.to][n] = mean(p.volume[0][n], p.volume[1][n]);
+    p.taken[rk.to][n] = mean(p.taken[0][n], p.taken[1][n]);
   }
 }
 
 }  // namespace
 
-std::string project_stage(Simulation& s, int number) {
+std::string project_stage(Simulation& s, const ProjectedStage& rk) {
   const Domain& d = s.domain;
   State& u = s.state;
   Projection& p = s.state.projection;
-  if (number == 0) p.step_iterations = 0;
+  if (rk.number == 0) p.step_iterations = 0;
   const ProjectionCoefficients k = projection_coefficients(s);
   const std::vector<Part>& parts = d.projection.parts;
-  const ProjectionRows rows = projection_rows(s, number, 1);
+  const ProjectionRows rows = projection_rows(s, rk.from, 1);
   std::string failure;
   s.team.clock.time("projection_start", [&] {
     for_parts(s, [&](int i, Scratch) {
@@ -98,17 +106,17 @@ std::string project_stage(Simulation& s, int number) {
     });
     for_parts(s, [&](int i, Scratch) { projection_start_part(parts[i], d.order.edges(), d.order.lists(), rows, k); });
   });
-  s.team.clock.time("projection", [&] { failure = solve_constraint(s, rows, number); });
+  s.team.clock.time("projection", [&] { failure = solve_constraint(s, rows, rk.number); });
   s.team.clock.time("stress", [&] {
     Rows next{};
     next.X = d.X.data();
-    next.U_new = u.U[number == 0 ? 1 : 0].data();
+    next.U_new = u.U[rk.to].data();
     next.W_new = u.W[0].data();
     next.PH_new = u.PH[0].data();
-    for_parts(s, [&](int i, Scratch) {
+    for_parts(s, [&](int i, Scratch scratch) {
       const Part& part = d.order.parts[i];
-      if (number == 1) average_part(part, u, k.inverse_kappa == 0);
-      s.state.reports[i] = d.functions.stress(part, next, d.coefficients, d.step_length.data());
+      if (rk.old != 0) average_part(part, d, u, rk);
+      s.state.reports[i] = stress_of_part(d, i, next, d.coefficients, scratch);
     });
   });
   return failure;

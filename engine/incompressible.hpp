@@ -6,8 +6,15 @@
 
 namespace nanson {
 
-/// After the explicit part has put U + dt dU/dt into state.U[1]: projects it; the second stage averages with the start of the step. Then the next stress.
+/// A Runge-Kutta stage whose Euler step is projected before it is averaged: U_to = old U^n + stage U**.
+struct ProjectedStage {
+  int number;  // from 0
+  double old, stage;
+  int from, to;  // rows of U
+};
+
+/// After the explicit part has put U + dt dU/dt into state.U[1]: projects it, averages, and takes the next stress.
 /// Returns why the run must not go on, or nothing.
-std::string project_stage(Simulation& s, int number);
+std::string project_stage(Simulation& s, const ProjectedStage& rk);
 
 }  // namespace nanson

@@ -56,10 +56,10 @@ Vec3 rotation(const Vec3& omega, const Vec3& r) {
   return {omega[1] * r[2] - omega[2] * r[1], omega[2] * r[0] - omega[0] * r[2], omega[0] * r[1] - omega[1] * r[0]};
 }
 
-/// First free-free bending mode of a beam along Y, in Z (paper, eq. 64).
-Vec3 plate_mode(const InitialSpec& s, const Vec3& X) {
-  constexpr double g1 = 56.637, g2 = 57.646, half_length = 0.03;  // [m]
-  const double y = s.B * (X[1] + half_length);
+/// First free-free bending mode of a beam along Y, in Z, at y from its end (paper, eq. 64): g1 and g2 are those of B length = 4.730.
+Vec3 plate_mode(const InitialSpec& s, double from_end) {
+  constexpr double g1 = 56.637, g2 = 57.646;
+  const double y = s.B * from_end;
   return {0, 0, s.amplitude * s.mode_omega * (g1 * (std::sinh(y) + std::sin(y)) - g2 * (std::cosh(y) + std::cos(y)))};
 }
 
@@ -71,23 +71,24 @@ bool has_exact_solution(const Scene& scene) {
          || scene.initial.field == manufactured;
 }
 
-Vec3 middle_of_box(const Mesh& mesh) {
-  Vec3 middle;
+Extent extent_of(const Mesh& mesh) {
+  Extent box;
   for (int k = 0; k < 3; ++k) {
     const auto [least, most] = std::minmax_element(mesh.X.begin(), mesh.X.end(),
                                                    [k](const Vec3& p, const Vec3& q) { return p[k] < q[k]; });
-    middle[k] = 0.5 * ((*least)[k] + (*most)[k]);
+    box.low[k] = (*least)[k];
+    box.high[k] = (*most)[k];
   }
-  return middle;
+  return box;
 }
 
-PointState exact_solution(const Scene& scene, const Vec3& middle, const Vec3& X, double t) {
+PointState exact_solution(const Scene& scene, const Extent& box, const Vec3& X, double t) {
   if (scene.initial.field == InitialField::manufactured) return manufactured_solution(scene, X, t);
   return scene.initial.field == InitialField::standing_wave ? standing_wave(scene, X, t)
-                                                            : plane_wave(scene, middle, X, t);
+                                                            : plane_wave(scene, box.middle(), X, t);
 }
 
-PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, const Vec3& centre) {
+PointState initial_state(const Scene& scene, const Extent& box, const Vec3& X, const Vec3& centre) {
   const InitialSpec& s = scene.initial;
   PointState out;
   switch (s.field) {
@@ -99,13 +100,13 @@ PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, 
       break;
     }
     case InitialField::twist: out.v = rotation({0, 0, s.twist_omega * std::sin(pi * X[2] / (2 * s.height))}, X); break;
-    case InitialField::plate_mode: out.v = plate_mode(s, X); break;
+    case InitialField::plate_mode: out.v = plate_mode(s, X[1] - box.low[1]); break;
     case InitialField::punch:
       out.v = {0, 0, -s.v0 * (0.5 - std::abs(X[0])) * (0.5 - std::abs(X[1])) * X[2] / s.height};
       break;  // downwards (method, section 12)
     case InitialField::manufactured:
     case InitialField::standing_wave:
-    case InitialField::plane_wave: return exact_solution(scene, middle, X, 0);
+    case InitialField::plane_wave: return exact_solution(scene, box, X, 0);
   }
   return out;
 }

@@ -16,14 +16,18 @@ struct PointState {
 
 bool has_exact_solution(const Scene& scene);
 
-/// Middle of the mesh's bounding box, where the plane wave starts: taken once, not at every point.
-Vec3 middle_of_box(const Mesh& mesh);
+/// Bounding box of a mesh: the plane wave starts in its middle, the plate's mode is as long as it. Taken once, not at every point.
+struct Extent {
+  Vec3 low, high;  // [m]
+  Vec3 middle() const { return {0.5 * (low[0] + high[0]), 0.5 * (low[1] + high[1]), 0.5 * (low[2] + high[2])}; }
+};
+Extent extent_of(const Mesh& mesh);
 
 /// The exact solution at X and t (standing_wave: paper, eq. 63; plane_wave: d'Alembert's travelling wave; both of linear elasticity; manufactured: kernels/manufactured.hpp).
-PointState exact_solution(const Scene& scene, const Vec3& middle, const Vec3& X, double t);
+PointState exact_solution(const Scene& scene, const Extent& box, const Vec3& X, double t);
 
 /// The state at t = 0. `centre` is the centre of mass.
-PointState initial_state(const Scene& scene, const Vec3& middle, const Vec3& X, const Vec3& centre);
+PointState initial_state(const Scene& scene, const Extent& box, const Vec3& X, const Vec3& centre);
 
 /// J that starts with F: det F or its linearisation 1 + tr(F - I); the linearisation only for the exact solutions of the linear law.
 double initial_J(const Scene& scene, const double (&F)[3][3]);

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <map>
-#include <stdexcept>
 
+#include "engine/input_error.hpp"
 #include "engine/material.hpp"
 
 namespace nanson {
@@ -26,6 +26,7 @@ std::vector<MaterialLaw> make_laws(const Scene& scene) {
     law.constants.parting = scene.physics.parting * law.constants.mu;
     law.rho_cp = law.constants.rho * law.constants.cp;
     law.rho_cs = law.constants.rho * law.constants.cs;
+    if (scene.physics.formulation == Formulation::pFp) law.rho_cp = law.rho_cs;  // no pressure waves
     law.functions = find_part_functions(scene.physics, m);
     laws.push_back(law);
   }
@@ -95,14 +96,18 @@ void find_impedances(const Mixture& m, Order& o) {
 
 /// The stress sweep bounds a node's step by its own waves; across an edge to a harder or denser node D^p acts with the speed rho c_p(edge)/rho(node), D^J with
 /// kappa(node)/rho c_p(edge). Where these are larger, the length of the node's step is shortened by as much.
-void shorten_steps(const Mixture& m, const Order& o, Aligned<double>& step_length) {
+void shorten_steps(const Mixture& m, const Order& o, bool projected, Aligned<double>& step_length) {
   std::vector<double> excess(static_cast<std::size_t>(o.rows), 1.0);
   const auto visit = [&](std::size_t n, double rho_cp) {
-    double cp = 0;
-    for (const int law : m.groups[static_cast<std::size_t>(m.group[n])])
-      cp = std::max(cp, m.laws[static_cast<std::size_t>(law)].constants.cp);
+    double c = 0;  // of the law's own waves
+    for (const int law : m.groups[static_cast<std::size_t>(m.group[n])]) {
+      const MaterialConstants& own = m.laws[static_cast<std::size_t>(law)].constants;
+      c = std::max(c, projected ? own.cs : own.cp);
+    }
+    excess[n] = std::max(excess[n], rho_cp / (m.rho[n] * c));
+    if (projected) return;
     const double kappa = mean_at(m, n, [](const MaterialLaw& l) { return l.constants.kappa + l.constants.parting; });
-    excess[n] = std::max({excess[n], rho_cp / (m.rho[n] * cp), kappa / (rho_cp * cp)});
+    excess[n] = std::max(excess[n], kappa / (rho_cp * c));
   };
   for (std::size_t e = 0; e < static_cast<std::size_t>(o.out.back()); ++e) {
     visit(static_cast<std::size_t>(o.a[e]), o.rho_cp[e]);
@@ -171,7 +176,7 @@ NodeMaterials node_materials(const Scene& scene, const Mesh& mesh) {
   const std::vector<int> material = material_of_regions(scene, mesh);
   for (const int region : mesh.tet_region)
     if (material[static_cast<std::size_t>(region)] < 0)
-      throw std::invalid_argument("region " + mesh.region_names[static_cast<std::size_t>(region)] + " has no material");
+      throw InputError("region " + mesh.region_names[static_cast<std::size_t>(region)] + " has no material");
   out.materials = static_cast<int>(scene.materials.size());
   const std::size_t m = scene.materials.size();
   out.volume.assign(m * mesh.X.size(), 0.0);
@@ -202,7 +207,7 @@ Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& orde
   find_runs(m, order, nodes.group);
   find_shares(m, order, nodes.volume);
   find_impedances(m, order);
-  shorten_steps(m, order, step_length);
+  shorten_steps(m, order, scene.physics.formulation == Formulation::pFp, step_length);
   find_states(m, order.rows);
   return m;
 }
@@ -259,6 +264,12 @@ double mixed_energy(const Mixture& m, const MaterialRun& run, const Rows& rows, 
     sum += law.functions.strain_energy(part_of(run.begin, end), mine, of_law(k, law));
   }
   return sum;
+}
+
+Aligned<double> means_of_rows(const Mixture& m, double (*value)(const MaterialLaw&)) {
+  Aligned<double> means(m.group.size());
+  for (std::size_t n = 0; n < means.size(); ++n) means[n] = mean_at(m, n, value);
+  return means;
 }
 
 double plastic_strain(const Mixture& m, const Aligned<double>& plastic, int n) {

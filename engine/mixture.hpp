@@ -62,6 +62,9 @@ constexpr std::size_t mixture_scratch(int rows) {
 PartReport mixed_stress(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k,
                         const double* step_length, double* scratch);
 
+/// Volume-weighted means over the laws, a row; empty with one material.
+Aligned<double> means_of_rows(const Mixture& mixture, double (*value)(const MaterialLaw&));
+
 /// Mean of the laws' equivalent plastic strains at a row by volume [-]; of one material its own.
 double plastic_strain(const Mixture& mixture, const Aligned<double>& plastic, int row);
 

@@ -17,7 +17,8 @@ Aligned<double> place_nodes(const Mesh& mesh, const Dual& dual, const Order& ord
   for (std::size_t r = 0; r < order.node_of.size(); ++r) {
     const int n = order.node_of[r];
     for (int k = 0; k < 3 && n >= 0; ++k) X[row::X * r + k] = mesh.X[n][k];
-    X[row::X * r + 3] = n < 0 ? 1.0 : 1.0 / dual.volume[n];
+    constexpr double inverse_of_nothing = 1e150;  // [1/m^3] padding counts for nothing in sums over the volume
+    X[row::X * r + 3] = n < 0 ? inverse_of_nothing : 1.0 / dual.volume[n];
   }
   return X;
 }

@@ -10,20 +10,27 @@
 
 namespace nanson {
 
-/// Doubles of the buffers of one thread, for the largest part and any scheme; at least a huge page: on small pages, scattered in memory, they push the part's rows out of L2.
+/// Where the buffers of a thread begin, and where they end [doubles]: fluxes of `edge_row` an edge, corners, forces, gradients, motion of edges.
+inline std::array<std::ptrdiff_t, 6> scratch_offsets(const Order& o, std::ptrdiff_t edge_row) {
+  const std::ptrdiff_t edges = o.most_edges + 8, nodes = o.most_nodes;
+  const std::ptrdiff_t sizes[] = {edge_row * edges, 4 * static_cast<std::ptrdiff_t>(o.most_corners), 4 * nodes,
+                                  12 * nodes, edges};
+  std::array<std::ptrdiff_t, 6> at{};
+  for (std::size_t i = 0; i < 5; ++i) at[i + 1] = at[i] + sizes[i];
+  return at;
+}
+
+/// Of one thread, for the largest part and any scheme; at least a huge page: on small pages, scattered in memory, they push the part's rows out of L2.
 inline std::size_t part_scratch(const Order& o) {
-  const std::size_t used = static_cast<std::size_t>((8 + 1) * (o.most_edges + 8) + 4 * o.most_corners
-                                                    + (4 + 12) * o.most_nodes);
-  return std::max(used, CacheLineAllocator<double>::huge_page / sizeof(double));
+  return std::max(static_cast<std::size_t>(scratch_offsets(o, 8)[5]),
+                  CacheLineAllocator<double>::huge_page / sizeof(double));
 }
 
 inline Scratch scratch_of(const Simulation& s, int thread) {
   double* p = s.team.scratch[static_cast<std::size_t>(thread)].data();
   const bool corrected = s.domain.scene->physics.flux_correction != FluxCorrection::none;
-  const std::ptrdiff_t edge = (corrected ? 8 : 4) * static_cast<std::ptrdiff_t>(s.domain.order.most_edges + 8),
-                       corner = 4 * static_cast<std::ptrdiff_t>(s.domain.order.most_corners),
-                       force = 4 * static_cast<std::ptrdiff_t>(s.domain.order.most_nodes), dG = 3 * force;
-  return {p, p + edge, p + edge + corner, p + edge + corner + force, p + edge + corner + force + dG};
+  const auto at = scratch_offsets(s.domain.order, corrected ? 8 : 4);
+  return {p, p + at[1], p + at[2], p + at[3], p + at[4]};
 }
 
 /// Runs sweep(part index, scratch) over all parts; parts stay with their thread from sweep to sweep.

@@ -106,7 +106,7 @@ constexpr PhysicsRule rules[] = {
      "choose"},
     {"physics.keep_angular_momentum", "time.integrator",
      [](const Scene& s, const Spec&) {
-       return s.physics.keep_angular_momentum && s.time.integrator != Integrator::tvd_rk2;
+       return s.physics.keep_angular_momentum && s.time.integrator != Integrator::tvd_rk2 && !is_projected(s);
      },
      "needs time.integrator = \"tvd_rk2\": for the stages of ssp_rk3 no arms are built that keep it exactly"},
 
@@ -152,9 +152,7 @@ constexpr PhysicsRule rules[] = {
      [](const Scene& s, const Spec&) { return is_corrected(s) && impedance_ratio(s) > 100; },
      "is unsound between materials whose impedances rho c_p differ more than 1:100, allowed: none"},
     {"physics.stabilisation", "", [](const Scene& s, const Spec&) { return has_several(s) && is_jst(s); },
-     "is not built yet with several materials, allowed: upwind"},
-    {"physics.formulation", "", [](const Scene& s, const Spec&) { return has_several(s) && is_projected(s); },
-     "is not built yet with several materials, allowed: pF | pFJ | pFHJ"},
+     "with several materials needs \"upwind\", whose edges carry impedances of both sides"},
 
     // {p, F, p}
     {"material.volumetric", "physics.formulation",
@@ -184,9 +182,6 @@ constexpr PhysicsRule rules[] = {
     {"physics.keep_angular_momentum", "physics.formulation",
      [](const Scene& s, const Spec&) { return is_projected(s) && s.physics.keep_angular_momentum; },
      "is not built yet with formulation = \"pFp\", allowed: false"},
-    {"time.integrator", "physics.formulation",
-     [](const Scene& s, const Spec&) { return is_projected(s) && s.time.integrator != Integrator::tvd_rk2; },
-     "is not built yet with formulation = \"pFp\", allowed: tvd_rk2"},
     {"monitor.entropy", "physics.formulation",
      [](const Scene& s, const Spec&) { return is_projected(s) && s.monitor.entropy; },
      "is not built yet with formulation = \"pFp\", which dissipates by its projection too"},

@@ -127,7 +127,9 @@ ProjectionRows projection_rows(Simulation& s, int from, int to) {
           p.d.data(),
           p.V.data(),
           p.Kd.data(),
-          p.removed.data()};
+          p.removed.data(),
+          s.domain.mixture.empty() ? nullptr : s.domain.mixture.rho.data(),
+          s.domain.mixture.empty() ? nullptr : s.domain.projection.inverse_kappa.data()};
 }
 
 PressureSolve solve_pressure(Simulation& s, const ProjectionRows& rows, double norm, double goal, int most) {

@@ -1,6 +1,7 @@
 // Coefficients of the projection, and whether the supports close the domain.
 #include "engine/projection.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace nanson {
@@ -30,7 +31,8 @@ bool supports_close(const Order& o, const Boundary& boundary, const std::vector<
 }  // namespace
 
 ProjectionSetup make_projection_setup(const Scene& scene, const Order& order, const Boundary& boundary,
-                                      const Aligned<double>& X, const MaterialConstants& material) {
+                                      const Aligned<double>& X, const MaterialConstants& material,
+                                      const Mixture& mixture) {
   ProjectionSetup p;
   if (scene.physics.formulation != Formulation::pFp) return p;
   p.parts = order.parts;
@@ -43,11 +45,17 @@ ProjectionSetup make_projection_setup(const Scene& scene, const Order& order, co
     if (order.node_of[n] >= 0) p.total_volume += 1.0 / X[row::X * n + 3];
   ProjectionCoefficients& k = p.coefficients;
   k.rho = material.rho;
+  for (const MaterialLaw& law : mixture.laws)
+    k.rho = std::min(k.rho, law.constants.rho);  // sets the pseudo-time's pace
   k.inverse_kappa = 1.0 / material.kappa;
+  k.beta = scene.projection.stabilisation;
   k.beta_over_rho_cs = scene.projection.stabilisation / (material.rho * material.cs);
   k.theta = scene.projection.drift_control;
   k.still = material.cs;
-  p.closed = k.inverse_kappa == 0 && supports_close(order, boundary, p.held);
+  p.inverse_kappa = means_of_rows(mixture, [](const MaterialLaw& l) { return 1.0 / l.constants.kappa; });
+  const bool incompressible = mixture.empty() ? k.inverse_kappa == 0
+                                              : std::ranges::all_of(p.inverse_kappa, [](double c) { return c == 0; });
+  p.closed = incompressible && supports_close(order, boundary, p.held);
   return p;
 }
 

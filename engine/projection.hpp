@@ -7,7 +7,7 @@
 
 #include "engine/aligned.hpp"
 #include "engine/boundary.hpp"
-#include "engine/material.hpp"
+#include "engine/mixture.hpp"
 #include "kernels/projection.hpp"
 
 namespace nanson {
@@ -20,9 +20,11 @@ struct ProjectionSetup {
   bool closed =
       false;  // every boundary node is held along its normal and 1/kappa = 0: the pressure's constant is free, its mean is kept at 0
   ProjectionCoefficients coefficients;  // without dt
+  Aligned<double> inverse_kappa;        // [1/Pa] a row: sum_r Omega_a,r/(Omega_a kappa_r); several materials only
 };
 ProjectionSetup make_projection_setup(const Scene& scene, const Order& order, const Boundary& boundary,
-                                      const Aligned<double>& X, const MaterialConstants& material);
+                                      const Aligned<double>& X, const MaterialConstants& material,
+                                      const Mixture& mixture);
 
 struct Projection {
   Aligned<double> E, B;  // per edge, per corner

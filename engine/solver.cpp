@@ -27,14 +27,11 @@ struct RungeKuttaStage {
   bool at_the_next;  // its rates are of t + dt: the next step's first stage takes its flux correction
 };
 constexpr RungeKuttaStage tvd_rk2[] = {{0, 1, 0.5, 0, 0, 1, false, false}, {0.5, 0.5, 0.5, 1, 1, 0, true, true}};
-constexpr RungeKuttaStage projected_rk2[] = {{0, 1, 0.5, 0, 0, 1, false, false},  // the projection averages itself
-                                             {0, 1, 0.5, 1, 1, 1, true, true}};
 constexpr RungeKuttaStage ssp_rk3[] = {{0, 1, 1.0 / 6, 0, 0, 1, false, false},
                                        {0.75, 0.25, 1.0 / 6, 1, 1, 1, false, false},
                                        {1.0 / 3, 2.0 / 3, 2.0 / 3, 0.5, 1, 0, true, false}};
 
 std::span<const RungeKuttaStage> stages_of(const Scene& scene) {
-  if (scene.physics.formulation == Formulation::pFp) return projected_rk2;
   if (scene.time.integrator == Integrator::tvd_rk2) return tvd_rk2;
   return ssp_rk3;
 }
@@ -45,9 +42,11 @@ bool broken(const Simulation& s) {
 
 Coefficients coefficients_of(const Simulation& s, const RungeKuttaStage& rk) {
   Coefficients k = s.domain.coefficients;
-  k.old_weight = rk.old;
-  k.stage_weight = rk.stage;
-  k.dt = rk.stage * s.state.dt;
+  const bool projected = s.domain.scene->physics.formulation
+                         == Formulation::pFp;  // an Euler step that the projection averages
+  k.old_weight = projected ? 0 : rk.old;
+  k.stage_weight = projected ? 1 : rk.stage;
+  k.dt = k.stage_weight * s.state.dt;
   k.commits = rk.last;
   k.takes_lagged = rk.from == 0 && s.state.has_lagged_correction;
   k.leaves_lagged = rk.at_the_next && s.domain.scene->physics.flux_correction != FluxCorrection::none;
@@ -57,7 +56,7 @@ Coefficients coefficients_of(const Simulation& s, const RungeKuttaStage& rk) {
 
 /// Two sweeps over the parts: gradients; then fluxes, gather, update and the next stress while the part is in cache (one sweep with constant reconstruction).
 /// The incompressible scheme projects before the stress. Returns why the run must not go on, or nothing.
-std::string stage(Simulation& s, const RungeKuttaStage& rk) {
+std::string stage(Simulation& s, int number, const RungeKuttaStage& rk) {
   const Domain& d = s.domain;
   State& u = s.state;
   const PhysicsSpec& physics = d.scene->physics;
@@ -65,7 +64,7 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk) {
   const bool neighbours = physics.reconstruction != Reconstruction::constant || projected;  // read their gradients
   const Coefficients k = coefficients_of(s, rk);
   const PartFunctions& functions = k.takes_lagged ? d.lagged_functions : d.functions;
-  Rows rows = stage_rows(d, u, rk.from, rk.to);
+  Rows rows = stage_rows(d, u, rk.from, projected ? 1 : rk.to);
   const auto edges = d.order.edges();
   const auto corners = d.order.corners();
   const auto lists = d.order.lists();
@@ -108,7 +107,8 @@ std::string stage(Simulation& s, const RungeKuttaStage& rk) {
     s.team.clock.time("keep_angular_momentum", [&] {
       s.books.angular_momentum_work += rk.mean * u.dt * keep_angular_momentum(s, rows, k, arms);
     });
-  const std::string failure = projected ? project_stage(s, rk.last) : std::string();
+  const std::string failure = projected ? project_stage(s, {number, rk.old, rk.stage, rk.from, rk.to}) : std::string();
+  if (projected && d.scene->monitor.energy) book_drift_control(s, rk.mean * u.dt);
   book_stage(s, arms, rk.mean, rk.from == 0);
   if (!projected) u.now = 1 - u.now;
   u.has_lagged_correction = k.leaves_lagged;
@@ -180,8 +180,8 @@ void advance(Simulation& s) {
   prescribe(s.domain.boundary, u);
   int number = 0;
   for (const RungeKuttaStage& rk : stages_of(*s.domain.scene)) {
+    const std::string failure = stage(s, number, rk);
     ++number;
-    const std::string failure = stage(s, rk);
     const bool stop = !failure.empty() && s.domain.scene->projection.on_limit == OnLimit::stop;
     if (!failure.empty() && !stop) warn(s, "iteration_limit", failure);
     if (!broken(s) && !stop) continue;

@@ -27,9 +27,10 @@ Vec3 centre_of_mass(const Domain& d) {
 }
 
 void set_initial_state(const Domain& d, State& s) {
-  const Vec3 centre = centre_of_mass(d), middle = middle_of_box(*d.mesh);
+  const Vec3 centre = centre_of_mass(d);
+  const Extent box = extent_of(*d.mesh);
   for (int n = 0; n < d.order.nodes; ++n) {
-    const PointState p = initial_state(*d.scene, middle, d.mesh->X[static_cast<std::size_t>(n)], centre);
+    const PointState p = initial_state(*d.scene, box, d.mesh->X[static_cast<std::size_t>(n)], centre);
     const int r = d.order.row_of[static_cast<std::size_t>(n)];
     const auto u = state_of_row(s.U[0].data(), r);
     for (int k = 0; k < 3; ++k) {

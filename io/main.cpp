@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstring>
 
+#include "engine/input_error.hpp"
 #include "io/check.hpp"
 #include "io/keys.hpp"
 #include "io/new_scene.hpp"
@@ -114,6 +115,9 @@ int main(int argc, char** argv) {
     return told(nanson::check_scene(*loaded, options.threads));
   } catch (const nanson::FolderError& e) {
     nanson::print(stderr, "{}\n", e.what());
+    return 2;
+  } catch (const nanson::InputError& e) {
+    nanson::print(stderr, "{}: {}\n", scene, e.what());
     return 2;
   } catch (const std::exception& e) {
     nanson::print(stderr, "nanson: {}\n", e.what());

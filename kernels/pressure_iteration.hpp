@@ -39,7 +39,7 @@ inline void pressure_force_part(const Part& part, const EdgeArrays& edges, const
       }
     }
     double* V = rows.V + row::V * n;
-    Vec4 v = fma(f, broadcast4(step / k.rho * rows.X[row::X * n + 3]), load4(V) * broadcast4(keep));
+    Vec4 v = fma(f, broadcast4(step / density(rows, k, n) * rows.X[row::X * n + 3]), load4(V) * broadcast4(keep));
     v[3] = fma(-rows.weight_sum[n], rows.d[n], f[3]);
     store4(V, v);
   }
@@ -68,7 +68,7 @@ inline Three pressure_operator_part(const Part& part, const EdgeArrays& edges, c
       D = fma(load4(rows.B + row::B * g),
               (Va + Va) + (load4(rows.V + row::V * corners.b[g]) + load4(rows.V + row::V * corners.c[g])), D);
     const double volume = 1.0 / rows.X[row::X * n + 3], d = rows.d[n];
-    const double Kd = volume * k.inverse_kappa / k.dt * d - Va[3] - ((D[0] + D[1]) + D[2]);
+    const double Kd = volume * compliance(rows, k, n) / k.dt * d - Va[3] - ((D[0] + D[1]) + D[2]);
     rows.Kd[n] = Kd;
     sum.s[0] += d * Kd;
     sum.s[1] += Kd;
@@ -129,7 +129,7 @@ inline double pseudo_pressure_part(const Part& part, const ProjectionRows& rows,
   double sum = 0;
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const double inverse_volume = rows.X[row::X * n + 3], r = (rows.R[n] - rows.Kd[n]) * inverse_volume + mean;
-    rows.d[n] += pace * r / (1 + pace * (2 * rows.weight_sum[n] * inverse_volume + k.inverse_kappa / k.dt));
+    rows.d[n] += pace * r / (1 + pace * (2 * rows.weight_sum[n] * inverse_volume + compliance(rows, k, n) / k.dt));
     sum += rows.d[n] / inverse_volume;
   }
   return sum;

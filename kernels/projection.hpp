@@ -22,24 +22,33 @@ struct ProjectionRows {
   double* U;                 // {v, pressure | F, x} that is projected
   double* H;                 // cof F of U, rows of row::H
   double *volume, *taken;    // [-] Q, volume that the stabilisation has taken; [m^3/s] its rate, of the stage's start
-  double *new_volume, *new_taken;  // of U
-  double* fixed;                   // [m^3/s] what the residual keeps through a stage
-  double* lag;                     // [m^3/s] L_old
-  double* inverse_diagonal;        // of K, 0 without one
-  double* weight_sum;              // sum of w over the node's edges
-  double* R;                       // [m^3/s] residual
-  double* d;                       // [Pa] search direction, or the pressure increment of the pseudo-time solver
-  double* V;                       // rows of row::V
-  double* Kd;                      // K d [m^3/s]
-  double* removed;                 // [N] 3 a constraint: force of d along the held directions
+  double *new_volume, *new_taken;     // of U
+  double* fixed;                      // [m^3/s] what the residual keeps through a stage
+  double* lag;                        // [m^3/s] L_old
+  double* inverse_diagonal;           // of K, 0 without one
+  double* weight_sum;                 // sum of w over the node's edges
+  double* R;                          // [m^3/s] residual
+  double* d;                          // [Pa] search direction, or the pressure increment of the pseudo-time solver
+  double* V;                          // rows of row::V
+  double* Kd;                         // K d [m^3/s]
+  double* removed;                    // [N] 3 a constraint: force of d along the held directions
+  const double *rho, *inverse_kappa;  // [kg/m^3], [1/Pa] of nodes; several materials only
 };
 
 struct ProjectionCoefficients {
   double rho = 0, inverse_kappa = 0;  // [kg/m^3], [1/Pa]
+  double beta = 0;                    // [-] stabilisation
   double beta_over_rho_cs = 0;        // [m^2 s/kg]
   double theta = 0, dt = 0;           // [-] drift control, [s]
   double still = 0;                   // [m/s] speeds below this times 1e-9 are rest
 };
+
+NANSON_INLINE double density(const ProjectionRows& rows, const ProjectionCoefficients& k, int n) {
+  return rows.rho ? rows.rho[n] : k.rho;
+}
+NANSON_INLINE double compliance(const ProjectionRows& rows, const ProjectionCoefficients& k, int n) {
+  return rows.inverse_kappa ? rows.inverse_kappa[n] : k.inverse_kappa;
+}
 
 /// Sums that a part gives to a reduction.
 struct Three {
@@ -67,7 +76,8 @@ inline void projection_edges_part(const Part& part, const EdgeArrays& edges, con
       const double C0 = 0.5 * edges.C[0][e], C1 = 0.5 * edges.C[1][e], C2 = 0.5 * edges.C[2][e];
       Vec4 ha = area(PHa, C0, C1, C2), hb = area(rows.PH + row::PH * edges.b[e], C0, C1, C2);
       const Vec4 c = ha + hb;
-      const double w = k.beta_over_rho_cs * dot3(c, c)[0] / edge_size(edges, e);
+      const double per_impedance = edges.rho_cs ? k.beta / edges.rho_cs[e] : k.beta_over_rho_cs;
+      const double w = per_impedance * dot3(c, c)[0] / edge_size(edges, e);
       ha[3] = -w;
       hb[3] = w;
       store8(rows.E + row::E * e, concat(ha, hb));
@@ -100,7 +110,7 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
                                   const ProjectionRows& rows, const ProjectionCoefficients& k) {
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const double inverse_volume = rows.X[row::X * n + 3], volume = 1.0 / inverse_volume,
-                 old_pressure = rows.W[row::W * n + 3];
+                 old_pressure = rows.W[row::W * n + 3], inverse_kappa = compliance(rows, k, n);
     const Tensor<double> F = tensor_of(rows.U + row::U * n + 4, 4), H = cofactor(F);
     for (int m = 0; m < 9; ++m) rows.H[row::H * n + 4 * (m / 3) + m % 3] = H[m % 3][m / 3];
     rows.new_volume[n] = fma(k.dt * inverse_volume, rows.taken[n], rows.volume[n]);
@@ -112,7 +122,7 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
       const double* Gb = rows.G + row::G * b;
       const Vec4 D = load4(rows.X + row::X * b) - Xa;
       lag = fma(-0.5 * w, (Ga[3] + Gb[3]) * D[0] + (Ga[7] + Gb[7]) * D[1] + (Ga[11] + Gb[11]) * D[2], lag);
-      diagonal = fma(k.dt / k.rho * rows.X[row::X * b + 3], free_square(rows, b, h), diagonal);
+      diagonal = fma(k.dt / density(rows, k, b) * rows.X[row::X * b + 3], free_square(rows, b, h), diagonal);
       weights += w;
     };
     prefetch_lists(n, edges, lists);
@@ -127,11 +137,11 @@ inline void projection_start_part(const Part& part, const EdgeArrays& edges, con
       const double* E = rows.E + row::E * lists.in_edges[i];
       add(lists.in_nodes[i], E[7], E + 4);
     }
-    diagonal += weights + volume * k.inverse_kappa / k.dt;
+    diagonal += weights + volume * inverse_kappa / k.dt;
     rows.lag[n] = lag;
     rows.weight_sum[n] = weights;
     rows.inverse_diagonal[n] = diagonal > 0 ? 1.0 / diagonal : 0.0;
-    const double drift = determinant(F, H) + rows.new_volume[n] - 1.0 - old_pressure * k.inverse_kappa;
+    const double drift = determinant(F, H) + rows.new_volume[n] - 1.0 - old_pressure * inverse_kappa;
     rows.fixed[n] = fma(k.theta * volume / k.dt, drift, lag);
   }
 }
@@ -174,7 +184,8 @@ inline Three constraint_residual_part(const Part& part, const EdgeArrays& edges,
     const double D = 0.5
                      * (dot3(load4(H), g0) + dot3(load4(H + 4), g1) + dot3(load4(H + 8), g2))[0];  // 2 Omega grad v = g
     const double inverse_volume = rows.X[row::X * n + 3], volume = 1.0 / inverse_volume;
-    const double R = (D + S) + (rows.fixed[n] - volume * k.inverse_kappa / k.dt * (Ua[3] - rows.W[row::W * n + 3]));
+    const double R = (D + S)
+                     + (rows.fixed[n] - volume * compliance(rows, k, n) / k.dt * (Ua[3] - rows.W[row::W * n + 3]));
     rows.R[n] = R;
     rows.new_taken[n] = S + rows.lag[n];
     const double rest = 1e-9 / rows.length[n], speed2 = dot3(Ua, Ua)[0] + k.still * k.still;

@@ -36,7 +36,7 @@ void read_root(Table& root, SceneResult& r, const fs::path& folder) {
   root.section(key("initial"), [&](Table& t) { read_initial(t, s.initial); });
   read_boundaries(root, s.boundary);
   root.section(key("body_force"), [&](Table& t) { t.read(key("body_force.g"), s.body_force); });
-  root.section(key("time"), [&](Table& t) { read_time(t, s.time); });
+  root.section(key("time"), [&](Table& t) { read_time(t, s.physics, s.time); });
   root.section(key("output"), [&](Table& t) { read_output(t, s.output); });
   root.section(key("monitor"), [&](Table& t) { read_monitor(t, s.monitor); });
   check_together(root, s);

@@ -204,7 +204,7 @@ inline constexpr Key scene_keys[] = {
 
     {"time", {KeyType::table}, "", "the time loop", {.required = true, .example = "{ end = 0.01 }"}},
     {"time.end", of<&TimeSpec::end>, "s", "time at which the run ends", {.required = true, .range = {.above = 0}}},
-    {"time.integrator", of<&TimeSpec::integrator>, "", "two stages, or three that allow twice the step"},
+    {"time.integrator", of<&TimeSpec::integrator>, "", "two stages, or three that allow twice the step; ssp_rk3 where the formulation is pFp"},
     {"time.cfl", of<&TimeSpec::cfl>, "-",
      "share of the largest stable step; 0.6 where the integrator is ssp_rk3", {.range = {.above = 0, .to = 2}}},
     {"time.step", of<&TimeSpec::step>, "",

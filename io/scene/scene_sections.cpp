@@ -180,8 +180,9 @@ void read_initial(Table& t, InitialSpec& s) {
   }
 }
 
-void read_time(Table& t, TimeSpec& s) {
+void read_time(Table& t, const PhysicsSpec& physics, TimeSpec& s) {
   t.read(key("time.end"), s.end);
+  if (physics.formulation == Formulation::pFp) s.integrator = Integrator::ssp_rk3;
   t.read(key("time.integrator"), s.integrator);
   if (s.integrator == Integrator::ssp_rk3) s.cfl = 0.6;
   t.read(key("time.cfl"), s.cfl);  // no explicit scheme is stable above: larger is a slip of the pen

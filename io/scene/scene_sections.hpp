@@ -20,7 +20,7 @@ void read_initial(Table& t, InitialSpec& s);
 void read_names(Table& t, const Key& key, std::vector<Word>& names);
 void read_boundaries(Table& root, std::vector<BoundarySpec>& boundary);
 void read_time_function(Table& t, TimeFunction& f);
-void read_time(Table& t, TimeSpec& s);
+void read_time(Table& t, const PhysicsSpec& physics, TimeSpec& s);
 void read_output(Table& t, OutputSpec& o);
 void read_monitor(Table& t, MonitorSpec& m);
 

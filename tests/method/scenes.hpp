@@ -304,4 +304,38 @@ inline Vec3 times(const Tensor<double>& A, const Vec3& v) {
           A[2][0] * v[0] + A[2][1] * v[1] + A[2][2] * v[2]};
 }
 
+inline MaterialSpec in_region(MaterialSpec m, const std::string& region) {
+  m.regions = {{region, "test"}};
+  return m;
+}
+
+/// A bar of two materials; the tets above and below a rough surface, so that an interface node sees any share of either.
+struct TwoMaterials : Problem {
+  static Scene scene_of(Scene s, const MaterialSpec& low, const MaterialSpec& high) {
+    s.materials = {in_region(low, "low"), in_region(high, "high")};
+    s.material = s.materials[0];
+    return s;
+  }
+  static Mesh mesh_with_regions(const Scene& s) {
+    RawMesh raw = make_box(s.mesh);
+    raw.region_names = {"low", "high"};
+    for (std::size_t t = 0; t < raw.tets.size(); ++t) {
+      Vec3 middle{};
+      for (const int n : raw.tets[t])
+        for (int k = 0; k < 3; ++k) middle[k] += raw.X[n][k] / 4;
+      raw.tet_region[t] = middle[2] > 0.9 + 0.3 * std::sin(5 * middle[0]) * std::cos(4 * middle[1]);
+    }
+    return mesh_of(std::move(raw));
+  }
+  TwoMaterials(const Scene& s, const MaterialSpec& low, const MaterialSpec& high)
+      : Problem(scene_of(s, low, high), mesh_with_regions(s)) {}
+};
+
+inline MaterialSpec rubber() { return free_bar(1).material; }
+inline MaterialSpec times(MaterialSpec m, double density, double stiffness) {
+  m.density *= density;
+  m.youngs_modulus *= stiffness;
+  return m;
+}
+
 }  // namespace nanson::method

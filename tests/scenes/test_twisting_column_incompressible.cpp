@@ -23,9 +23,10 @@ TEST(TwistingColumnIncompressible, ReachesTheFiguresOfThePrototype) {
                        Row{4, "pseudo_time", 0.1, 0.865, {0.372, 0.604, 5.955}, {0.853, 1.226}, 0.162, 12, 96},
                        Row{6, "cg", 0.1, 0.949, {0.489, 0.513, 5.975}, {0.829, 1.230}, 0.087, 7.2, 144},
                        Row{4, "cg", 0.5, 0.585, {0.303, -0.643, 6.109}, {0.879, 1.419}, 0.28, 6.9, 479}}) {
-    std::vector<std::string> settings{"projection.tolerance=1e-4", "time.step=edge",
-                                      "time.end=" + std::to_string(r.end),
-                                      std::string("projection.solver=") + r.solver};
+    std::vector<std::string> settings{
+        "projection.tolerance=1e-4",         "time.step=edge",
+        "time.integrator=tvd_rk2",           "time.cfl=0.3",
+        "time.end=" + std::to_string(r.end), std::string("projection.solver=") + r.solver};
     if (std::string(r.solver) == "pseudo_time") settings.push_back("projection.length_scale=0.2");
     const Summary s = run_column(r.n, settings).summary;
     ASSERT_EQ(s.status, "done");
@@ -44,20 +45,20 @@ TEST(TwistingColumnIncompressible, DefaultsGiveASmoothPressureAndNeverGainEnergy
   const SceneRun run = run_column(6, {"monitor.energy=true"});
   ASSERT_EQ(run.summary.status, "done");
   EXPECT_LT(run.summary.checkerboard, 0.12);
-  EXPECT_NEAR(energy_left(run.summary), 0.949, 5e-3);
+  EXPECT_NEAR(energy_left(run.summary), 0.943, 5e-3);  // TVD-RK2 at 0.3: 0.949
   EXPECT_LE(run.largest_energy, 1 + 1e-6);
-  EXPECT_LT(*run.summary.energy.closure, 0.01);
-  EXPECT_LT(run.summary.projection->iterations_per_stage, 5);
+  EXPECT_LT(*run.summary.energy.closure, 0.02);
+  EXPECT_LT(run.summary.projection->iterations_per_stage, 7);
 }
 
 TEST(TwistingColumnIncompressible, EnergyBooksCloseWithTheStep) {
   double closure[2];
   for (int k = 0; k < 2; ++k) {
     const SceneRun run = run_column(
-        4, {"monitor.energy=true", "projection.tolerance=1e-6", k == 0 ? "time.cfl=0.3" : "time.cfl=0.15"});
+        4, {"monitor.energy=true", "projection.tolerance=1e-6", k == 0 ? "time.cfl=0.6" : "time.cfl=0.3"});
     closure[k] = *run.summary.energy.closure;
   }
-  EXPECT_LT(closure[0], 4e-3);  // 2.0e-3, 8.5e-4; the drift is that of the last projection
+  EXPECT_LT(closure[0], 0.03);  // 0.027, 0.0094; TVD-RK2 at half the step: 2.0e-3, 8.5e-4
   EXPECT_GT(closure[0] / closure[1], 2);
 }
 
@@ -72,7 +73,7 @@ TEST(TwistingColumnIncompressible, IsSmoothInPoissonsRatioUpToOneHalf) {
   }
   for (std::size_t k = 1; k < x.size(); ++k) EXPECT_LT(std::abs(energy[k] - energy[k - 1]), 6e-3);
   for (std::size_t k = 1; k + 1 < x.size(); ++k) EXPECT_LT(x[k], x[k - 1]);
-  EXPECT_LT(std::abs(x[6] - x[5]), 1e-3);
+  EXPECT_LT(std::abs(x[6] - x[5]), 2.5e-3);
 }
 
 TEST(TwistingColumnIncompressible, NodesThatLimitItsStepAreFound) {

@@ -162,6 +162,33 @@ def test_nothing_is_overwritten_without_a_word():
     assert not Path("results/tiny.2").exists()
 
 
+FLAT = """$MeshFormat
+2.2 0 8
+$EndMeshFormat
+$Nodes
+5
+1 0 0 0
+2 1 0 0
+3 0 1 0
+4 0 0 1
+5 0.3 0.3 -1e-13
+$EndNodes
+$Elements
+2
+1 4 2 1 1 1 2 3 4
+2 4 2 1 1 1 3 2 5
+$EndElements
+"""
+
+
+def test_a_tet_too_flat_for_double_precision_is_wrong_input():
+    Path("flat.msh").write_text(FLAT)
+    Path("tiny.toml").write_text(TINY.replace("box = { origin = [0, 0, 0], size = [1, 1, 1] }", 'file = "flat.msh"').replace("cells = [2, 2, 2]\n", ""))
+    output = run("--out", "flat", code=2).stderr
+    assert "flat.msh: tet 1 with nodes" in output and "is flat: volume" in output, output
+    assert not Path("flat").exists()
+
+
 def test_an_empty_name_is_refused():
     for what in "run", "study":
         Path("study.toml").write_text('study = "s"\nkind = "sweep"\nscene = "tiny.toml"\n[vary]\n"time.cfl" = [0.2, 0.3]\n[report]\ny = ["steps"]\n')
