@@ -1,7 +1,13 @@
 // The [[boundary]] entries: kinds, functions of time, and which kinds may meet on one face.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <filesystem>
 #include <limits>
 
+#include "io/read_csv.hpp"
 #include "io/scene/scene_sections.hpp"
+#include "io/text_file.hpp"
 
 namespace nanson {
 
@@ -50,6 +56,74 @@ void read_points(Table& t, std::vector<std::pair<double, double>>& points) {
       points.push_back(p);
     }
   }
+}
+
+/// Two columns of a file, counted from 1.
+std::array<std::size_t, 2> read_columns(Table& t) {
+  std::array<std::size_t, 2> columns{1, 2};
+  const toml::node* node = t.find(key("boundary.time.columns"));
+  if (!node) return columns;
+  const auto* list = node->as_array();
+  bool sound = list && list->size() == 2;
+  for (std::size_t i = 0; sound && i < 2; ++i) {
+    const auto* number = (*list)[i].as_integer();
+    sound = number && number->get() >= 1;
+    if (sound) columns[i] = static_cast<std::size_t>(number->get());
+  }
+  if (!sound) t.fail("columns", "must be two column numbers from 1 on, that of t and that of the factor");
+  return columns;
+}
+
+/// A first line that is not all numbers is a heading.
+std::string points_of(const CsvTable& table, const std::array<std::size_t, 2>& columns,
+                      std::vector<std::pair<double, double>>& points) {
+  std::vector<std::vector<std::string>> rows{table.names};
+  rows.insert(rows.end(), table.rows.begin(), table.rows.end());
+  const std::size_t width = table.names.size(), most = std::max(columns[0], columns[1]);
+  if (most > width) return fmt::format("has {} columns, no column {}", width, most);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    std::array<double, 2> v{};
+    bool sound = true;
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string& text = rows[i][columns[k] - 1];
+      char* end = nullptr;
+      v[k] = std::strtod(text.c_str(), &end);
+      while (end && (*end == ' ' || *end == '\t')) ++end;
+      sound = sound && end != text.c_str() && *end == '\0' && std::isfinite(v[k]);
+    }
+    if (!sound && i == 0) continue;
+    if (!sound)
+      return fmt::format("row {}: \"{}\", \"{}\" are not two numbers", i + 1, rows[i][columns[0] - 1],
+                         rows[i][columns[1] - 1]);
+    if (!points.empty() && !(v[0] > points.back().first))
+      return fmt::format("row {}: t = {} must come after {}", i + 1, v[0], points.back().first);
+    points.push_back({v[0], v[1]});
+  }
+  return points.size() < 2 ? "must hold at least two points" : "";
+}
+
+/// The file stands beside the scene, or at its path from there.
+void read_points_file(Table& t, std::vector<std::pair<double, double>>& points) {
+  const std::array<std::size_t, 2> columns = read_columns(t);
+  std::string name;
+  if (!t.read(key("boundary.time.file"), name) || name.empty() || !t.sound("columns")) return;
+  std::string why;
+  auto text = read_text_file(std::filesystem::path(t.diagnostics().file).parent_path() / name, why);
+  if (!text) return t.fail("file", why);
+  if (!text->ends_with('\n')) *text += '\n';
+  const auto table = parse_csv(*text, why);
+  if (table) why = points_of(*table, columns, points);
+  if (!why.empty()) t.fail("file", why);
+}
+
+void read_table(Table& t, std::vector<std::pair<double, double>>& points) {
+  if (!t.has("points") && !t.has("file"))
+    t.missing({"points", "file"}, fmt::format("{}: is missing, or file", t.path("points")));
+  if (t.has("points") && t.has("file")) t.fail("file", "cannot stand beside points");
+  read_points(t, points);
+  std::vector<std::pair<double, double>> of_file;
+  read_points_file(t, of_file);
+  if (!t.has("points")) points = std::move(of_file);
 }
 
 void read_entry(Table& t, Entry& e) {
@@ -146,7 +220,7 @@ void read_time_function(Table& t, TimeFunction& f) {
     t.read(key("boundary.time.centre"), f.centre);
     t.read(key("boundary.time.until", "logistic"), f.until);
   }
-  if (f.kind == table) read_points(t, f.points);
+  if (f.kind == table) read_table(t, f.points);
 }
 
 }  // namespace nanson

@@ -197,7 +197,11 @@ inline constexpr Key scene_keys[] = {
     {"boundary.time.until", of<&TimeFunction::until>, "s",
      "0 afterwards", {.required = true, .range = {.above = 0}, .of = "logistic"}},
     {"boundary.time.points", {KeyType::points}, "s, -",
-     "points [t, factor] of growing time, constant beyond the ends", {.required = true, .of = "table"}},
+     "points [t, factor] of growing time, constant beyond the ends; these or file", {.of = "table"}},
+    {"boundary.time.file", {KeyType::text}, "",
+     "a CSV file with such points, relative to the scene's folder; a heading and # lines are skipped", {.of = "table"}},
+    {"boundary.time.columns", {KeyType::numbers}, "-",
+     "columns of t and factor in file, counted from 1; [1, 2] where nothing is said", {.of = "table"}},
 
     {"body_force", {KeyType::table}, "", "acts on all mass", {.example = "{ g = [0.0, 0.0, -9.81] }"}},
     {"body_force.g", of<&Scene::body_force>, "m/s^2", "acceleration, such as gravity"},

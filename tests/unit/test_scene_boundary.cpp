@@ -1,4 +1,5 @@
 // [[boundary]] entries: values of each kind, functions of time, and kinds that meet on one face.
+#include "tests/support/temporary_folder.hpp"
 #include "tests/unit/scene_text.hpp"
 
 namespace nanson {
@@ -110,7 +111,7 @@ TEST(Scene, TimeFunctionsCheckTheirParameters) {
   refuse("\"logistic\", centre = 1, until = 1", "8: boundary.0.time.rate: is missing");
   refuse("\"logistic\", rate = 1, until = 1", "8: boundary.0.time.centre: is missing");
   refuse("\"logistic\", rate = 1, centre = 1", "8: boundary.0.time.until: is missing");
-  refuse("\"table\"", "8: boundary.0.time.points: is missing");
+  refuse("\"table\"", "8: boundary.0.time.points: is missing, or file");
   refuse("\"table\", points = 1", "35: boundary.0.time.points = 1: must be a list of at least two points [t, factor]");
   refuse("\"table\", points = [[0, 1]]",
          "35: boundary.0.time.points = [[0, 1]]: must be a list of at least two points");
@@ -123,6 +124,40 @@ TEST(Scene, TimeFunctionsCheckTheirParameters) {
   refuse("\"table\", points = [[0, 1], [\"1\", 1]]", "45: boundary.0.time.points.1.0 = \"1\": must be a number");
   refuse("\"constant\", until = 1", "37: boundary.0.time.until = 1: is not a key of constant");
   refuse("\"ramp\", until = 1, phase = 0", "44: boundary.0.time.phase = 0: is not a key of ramp, whose keys are until");
+}
+
+TEST(Scene, TimeTablesComeFromFilesToo) {
+  const test::TemporaryFolder folder;
+  const auto read = [&](const std::string& csv, const std::string& more = "") {
+    test::write_text(folder / "pulse.csv", csv);
+    test::write_text(
+        folder / "scene.toml",
+        small_scene
+            + entry("xmax", "pressure", "p = 1\ntime = { kind = \"table\", file = \"pulse.csv\"" + more + " }\n"));
+    return read_scene(folder / "scene.toml", {});
+  };
+  using Points = std::vector<std::pair<double, double>>;
+  const auto points = [&](const std::string& csv, const std::string& more = "") {
+    const SceneResult r = read(csv, more);
+    EXPECT_TRUE(r.errors.empty()) << r.errors[0];
+    return r.scene.boundary.back().time.points;
+  };
+  EXPECT_EQ(points("0,1\n0.5,2.5\n"), (Points{{0, 1}, {0.5, 2.5}}));
+  EXPECT_EQ(points("# a pulse\nt [s],factor [-]\r\n0, 1\r\n5e-1, 2.5"), (Points{{0, 1}, {0.5, 2.5}}))
+      << "heading, comment, no last line end";
+  EXPECT_EQ(points("n,f,t\n1,3,0\n2,4,1\n", ", columns = [3, 2]"), (Points{{0, 3}, {1, 4}}));
+  const auto refuse = [&](const std::string& csv, const std::string& more, const std::string& why) {
+    const SceneResult r = read(csv, more);
+    ASSERT_EQ(r.errors.size(), 1u);
+    EXPECT_NE(r.errors[0].find(why), std::string::npos) << r.errors[0];
+  };
+  refuse("0,1\n", "", "file = \"pulse.csv\": must hold at least two points");
+  refuse("t,f\n0,1\n0,2\n", "", "row 3: t = 0 must come after 0");
+  refuse("t,f\n0,1\n1,x\n", "", "row 3: \"1\", \"x\" are not two numbers");
+  refuse("0,1\n1,2\n", ", columns = [1, 3]", "has 2 columns, no column 3");
+  refuse("0,1\n1,2\n", ", columns = [0, 1]", "columns = [0, 1]: must be two column numbers from 1 on");
+  refuse("0,1\n1,2\n", ", points = [[0, 1], [1, 2]]", "cannot stand beside points");
+  refuse("0,1\n1,2,3\n", "", "line 2 has 3 fields");
 }
 
 TEST(Scene, TimeIsRefusedOnKindsWithoutAValue) {
