@@ -74,7 +74,7 @@ struct Bed {
     scene.material = m;
     functions = find_part_functions(p, m);
     audited = find_part_functions(p, m, true);
-    k.material = constants_of(m);
+    k.material = constants_of(m, p);
     k.edge = edge_choices(p);
     k.sweeps_J = p.stabilisation == Stabilisation::jst;
   }

@@ -156,7 +156,7 @@ double traction_jump_along(const NaiveLoop& n, const NaiveEdge& e, Choice choice
 }
 
 /// {D^p, D^J} of an edge: D^p = |C|/2 rho [c_p n (x) n + c_s (I - n (x) n)] (v+ - v-) (eq. 36a, 37, 41), D^J = |c|^2 (Sigma+ - Sigma-)/(2 rho c_p |C|)
-/// (Remark 4, eq. 42) or c . (P+ - P-) C/(2 rho c_p |C|) (eq. 36b), n = c/|c|, c = H_ave C, c_p times max(1, |H_ave N|) in the deformed metric.
+/// (Remark 4, eq. 42; with an energy of the parting c_J in place of c_p) or c . (P+ - P-) C/(2 rho c_p |C|) (eq. 36b), n = c/|c|, c = H_ave C, c_p times max(1, |H_ave N|) in the deformed metric.
 /// Entropy fix: without the normal or the tangential part of D^p, or D^J, where it opposes the plain jump (method, section 3).
 template <class Choice>
 NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const NaiveEdge& e, Choice choice,
@@ -178,7 +178,8 @@ NANSON_INLINE std::array<double, 4> stabilisation(const NaiveLoop& n, const Naiv
   for (int i = 0; i < 3; ++i) out[i] = 0.5 * e.size * (by_s * jump[i] + (by_p - by_s) * normal * c[i]);
   if (!choice.evolves_J()) return out;
   const double across = choice.tensor() ? traction_jump_along(n, e, choice, c, D) : cc * jump[3];
-  if (!choice.fixed() || across * plain[3] >= 0) out[3] = across / (2 * rho_cp * stretch * e.size);
+  const double rho_cJ = 0.5 * (n.rho_cJ[e.a] + n.rho_cJ[e.b]);
+  if (!choice.fixed() || across * plain[3] >= 0) out[3] = across / (2 * rho_cJ * stretch * e.size);
   return out;
 }
 
@@ -324,6 +325,7 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   n.takes_lagged = number == 0 && n.has_lagged;
   auto &from = number == 0 ? n.now : n.stage, &to = last ? n.now : n.stage;
   auto &H_from = number == 0 ? n.H_now : n.H_stage, &H_to = last ? n.H_now : n.H_stage;
+  if (!n.crushing.empty()) crushing_pass(n, from);
   gradient_pass(n);
   if (!n.takes_lagged) add_correction(n);
   const AnyChoice choice{n.scene->physics};
@@ -331,6 +333,9 @@ void naive_stage(NaiveLoop& n, int number, double dt) {
   if (!is_baseline(choice)) flux_pass(n, choice);
   else if (choice.evolves_J()) flux_pass(n, Baseline<true>{});
   else flux_pass(n, Baseline<false>{});
+  if (!n.springs.empty()) spring_pass(n, from);
+  for (std::size_t a = 0; a < n.crushing.size(); ++a)
+    for (int i = 0; i < 3; ++i) n.force[a][i] += n.crushing[a][i];
   boundary_pass(n, from, n.t + at[number] * dt);
   hold(n, dt);
   update_pass(n, from, to, H_from, H_to, w);

@@ -48,12 +48,12 @@ struct NaiveLaw {
 struct NaiveLoop {
   const Scene* scene = nullptr;
   std::vector<NaiveLaw> laws;
-  std::vector<double> rho;                  // [kg/m^3] mean of the materials by volume
-  std::vector<double> rho_cp, rho_cs;       // [kg/(m^2 s)] likewise; an edge takes the mean of its nodes
-  std::vector<int> row;                     // node -> row of the simulation that it was made from
-  std::vector<Vec3> X;                      // [m]
-  std::vector<double> volume, step_length;  // [m^3], [m]
-  std::vector<NaiveEdge> edges;             // each once, sorted by (a, b)
+  std::vector<double> rho;                     // [kg/m^3] mean of the materials by volume
+  std::vector<double> rho_cp, rho_cs, rho_cJ;  // [kg/(m^2 s)] likewise; an edge takes the mean of its nodes
+  std::vector<int> row;                        // node -> row of the simulation that it was made from
+  std::vector<Vec3> X;                         // [m]
+  std::vector<double> volume, step_length;     // [m^3], [m]
+  std::vector<NaiveEdge> edges;                // each once, sorted by (a, b)
   std::vector<NaiveCorner> corners;
   std::vector<Constraint> constraints;  // node numbers are those of this loop
   std::vector<LoadedFace> loaded;
@@ -62,13 +62,15 @@ struct NaiveLoop {
   std::vector<Table<3, 3>> H_now, H_stage;  // pFHJ
   std::vector<std::array<double, 4>> W;     // {v, Sigma_J}; {v, J} for jst
   std::vector<NaiveStress> stress;
-  std::vector<Table<4, 3>> G;                // grad of {v, Sigma_J}
-  std::vector<Table<9, 3>> GP;               // grad of P, tensor jump or full correction
-  std::vector<double> q;                     // [Pa] of Sigma_J, one an edge, pressure correction
-  std::vector<Table<3, 3>> dP;               // correction of the stress [Pa], full correction
-  std::vector<Table<3, 3>> dG;               // correction of the velocity gradient [m^3/s], flux correction
-  std::vector<std::array<double, 4>> L;      // limiter of W; its pseudo-Laplacian for jst
-  std::vector<std::array<int, 4>> tets;      // current areas
+  std::vector<Table<4, 3>> G;            // grad of {v, Sigma_J}
+  std::vector<Table<9, 3>> GP;           // grad of P, tensor jump or full correction
+  std::vector<double> q;                 // [Pa] of Sigma_J, one an edge, pressure correction
+  std::vector<Table<3, 3>> dP;           // correction of the stress [Pa], full correction
+  std::vector<Table<3, 3>> dG;           // correction of the velocity gradient [m^3/s], flux correction
+  std::vector<std::array<double, 4>> L;  // limiter of W; its pseudo-Laplacian for jst
+  std::vector<std::array<int, 4>> tets;
+  std::vector<double> springs;               // [N/m] of every edge, tet_stiffness
+  std::vector<Vec3> crushing;                // [N] of crushed tets, tet_barrier
   std::vector<NaiveEdge> current_edges;      // the same edges with c in C
   std::vector<Vec3> current_corners;         // [m^2]
   std::vector<Table<3, 3>> grad_x, H_x;      // pseudo_updated
@@ -91,6 +93,11 @@ void naive_material(NaiveLoop& n, const std::vector<NaiveNode>& nodes, const std
 /// Current areas of the positions U, and the rate of J by the motion of the dual cells; adjoint boundary flux with them.
 void current_geometry_pass(NaiveLoop& n, const std::vector<NaiveNode>& U);
 void current_boundary_flux(NaiveLoop& n);
+
+/// Forces of the springs between nodes; forces of crushed tets at the positions U, with what they add to the nodal stress.
+void spring_pass(NaiveLoop& n, const std::vector<NaiveNode>& U);
+void crushing_pass(NaiveLoop& n, const std::vector<NaiveNode>& U);
+void find_springs(NaiveLoop& n);
 
 /// Stage `number` of a step of size dt from n.t: the first writes n.stage, the last n.now; then the stress of what was written.
 void naive_stage(NaiveLoop& n, int number, double dt);

@@ -41,6 +41,8 @@ void add_material(NaiveLoop& n, NaiveLaw& of, const std::vector<NaiveNode>& node
       for (int k = 0; k < 9; ++k) H[k / 3][k % 3] = H_of[a][k / 3][k % 3];
     Stress<double> s = stress_of<law, volumetric, isochoric, formulation>(of, a, F, H, U.J, commits);
     if (n.scene->physics.parting > 0) add_parting(s, F, U.J, m.parting);
+    const double rest = n.dJ.empty() ? 1 : 0;  // current areas: without the I
+    for (int k = 0; k < 9; ++k) s.P[k / 3][k % 3] -= m.tet_stiffness * (F[k / 3][k % 3] - (k % 4 == 0 ? rest : 0));
     for (int k = 0; k < 9; ++k) {
       n.stress[a].P[k / 3][k % 3] += share * s.P[k / 3][k % 3];
       n.stress[a].H[k / 3][k % 3] += share * s.H[k / 3][k % 3];
@@ -48,7 +50,7 @@ void add_material(NaiveLoop& n, NaiveLaw& of, const std::vector<NaiveNode>& node
     n.W[a][3] += share * (!jst ? s.Sigma_J : formulation == Formulation::pF ? s.detF : U.J);
     double c = std::sqrt(s.rho_c2 / m.rho);
     if (formulation != Formulation::pF && law != Law::linear_elastic)
-      c = std::max(c, s.d2U / (m.rho * m.cp) * (deformed ? std::sqrt(s.H2) : s.H2));
+      c = std::max(c, s.d2U / (m.rho * m.cJ) * (deformed ? std::sqrt(s.H2) : s.H2));
     n.report.fastest = std::max(n.report.fastest, c / n.step_length[a]);
     if (!(s.detF > 0) || !std::isfinite(dot(U.v, U.v)) || (formulation != Formulation::pF && !(U.J > 0)))
       n.report.broken = true;

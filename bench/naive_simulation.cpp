@@ -77,8 +77,7 @@ void place_materials(NaiveLoop& n, const Simulation& s) {
     for (const Named& region : m.regions)
       for (std::size_t r = 0; r < law_of.size(); ++r)
         if (mesh.region_names[r] == region.name) law_of[r] = static_cast<int>(n.laws.size());
-    n.laws.push_back({m, constants_of(m), std::vector<double>(nodes, 0.0), {}});
-    n.laws.back().constants.parting = s.domain.scene->physics.parting * n.laws.back().constants.mu;
+    n.laws.push_back({m, constants_of(m, s.domain.scene->physics), std::vector<double>(nodes, 0.0), {}});
     if (m.law == Law::hencky_j2) n.laws.back().plastic.assign(nodes, PlasticState<double>{{{1, 1, 1, 0, 0, 0}}, 0});
   }
   const bool one = n.laws.size() == 1;
@@ -88,7 +87,7 @@ void place_materials(NaiveLoop& n, const Simulation& s) {
     for (const int node : v) n.laws[law_of[mesh.tet_region[t]]].share[place[node]] += quarter;
   }
   n.rho.assign(nodes, 0.0);
-  n.rho_cp = n.rho_cs = n.rho;
+  n.rho_cp = n.rho_cs = n.rho_cJ = n.rho;
   for (std::size_t a = 0; a < nodes; ++a) {
     double total = 0;
     for (const NaiveLaw& law : n.laws) total += law.share[a];
@@ -97,6 +96,7 @@ void place_materials(NaiveLoop& n, const Simulation& s) {
       n.rho[a] += law.share[a] * law.constants.rho;
       n.rho_cp[a] += law.share[a] * law.constants.rho * law.constants.cp;
       n.rho_cs[a] += law.share[a] * law.constants.rho * law.constants.cs;
+      n.rho_cJ[a] += law.share[a] * law.constants.rho * law.constants.cJ;
     }
   }
 }
@@ -141,11 +141,11 @@ NaiveLoop make_naive_loop(const Simulation& s) {
     for (int& node : f.node) node = node_of_row[node];
   allocate(n);
   if (n.scene->physics.stabilisation == Stabilisation::jst) find_lambda(n);
+  for (auto t : s.domain.mesh->tets) {
+    for (int& node : t) node = node_of_row[s.domain.order.row_of[node]];
+    n.tets.push_back(t);
+  }
   if (has_current_areas(n.scene->physics.description)) {
-    for (auto t : s.domain.mesh->tets) {
-      for (int& node : t) node = node_of_row[s.domain.order.row_of[node]];
-      n.tets.push_back(t);
-    }
     n.current_edges = n.edges;
     n.current_corners.resize(n.corners.size());
     n.dJ.resize(n.row.size());
@@ -155,6 +155,8 @@ NaiveLoop make_naive_loop(const Simulation& s) {
     }
   }
   place_materials(n, s);
+  if (n.scene->physics.tet_stiffness > 0) find_springs(n);
+  if (n.scene->physics.tet_barrier > 0) n.crushing.resize(n.row.size());
   copy_state(n, s);
   naive_material(n, n.now, n.H_now, false);
   return n;

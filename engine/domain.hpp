@@ -39,6 +39,11 @@ Domain make_domain(const Scene& scene, const Mesh& mesh, Clock& setup);
 inline double density(const Domain& d, int n) {
   return d.mixture.empty() ? d.coefficients.material.rho : d.mixture.rho[static_cast<std::size_t>(n)];
 }
+/// Modulus of the energy of the tets at a row [Pa].
+inline double tet_stiffness_at(const Domain& d, int n) {
+  return d.mixture.empty() ? d.coefficients.material.tet_stiffness
+                           : mean_at(d.mixture, n, &MaterialConstants::tet_stiffness);
+}
 inline double mass(const Domain& d, int n) { return density(d, n) / d.X[static_cast<std::size_t>(row::X * n + 3)]; }
 
 inline bool is_padding(const Domain& d, int n) { return d.order.node_of[static_cast<std::size_t>(n)] < 0; }

@@ -16,6 +16,13 @@ Vec3 area_in_tet(const Mesh& mesh, const std::array<int, 4>& t, const int (&e)[4
   return {C[0] / 24, C[1] / 24, C[2] / 24};
 }
 
+/// -V c grad N_a . grad N_b: with the areas A of the faces opposite to a and b, outward, V grad N_a . grad N_b = A_a . A_b/(9 V). [N/m]
+double spring_in_tet(const Mesh& mesh, const std::array<int, 4>& t, const int (&e)[4], double c) {
+  const Vec3 &a = mesh.X[t[e[0]]], &b = mesh.X[t[e[1]]], &p = mesh.X[t[e[2]]], &q = mesh.X[t[e[3]]];
+  const Vec3 A_a = cross(p - b, q - b), minus_A_b = cross(p - a, q - a);  // twice the areas
+  return c * dot(A_a, minus_A_b) / (36 * tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]));
+}
+
 /// The edges without their areas, sorted by (a, b), and the first of every node.
 void find_edges(const Mesh& mesh, Dual& dual) {
   const std::size_t nodes = mesh.X.size();
@@ -37,7 +44,7 @@ void find_edges(const Mesh& mesh, Dual& dual) {
   dual.edges.reserve(static_cast<std::size_t>(dual.first[nodes]));
   for (std::size_t a = 0; a < nodes; ++a)
     for (int i = 0; i < next[a]; ++i)
-      dual.edges.push_back({static_cast<int>(a), upper[static_cast<std::size_t>(begin[a] + i)], {}});
+      dual.edges.push_back({static_cast<int>(a), upper[static_cast<std::size_t>(begin[a] + i)], {}, 0});
 }
 
 std::size_t edge_of(const Dual& dual, int a, int b) {
@@ -49,16 +56,21 @@ std::size_t edge_of(const Dual& dual, int a, int b) {
 
 }  // namespace
 
-Dual make_dual(const Mesh& mesh) {
+Dual make_dual(const Mesh& mesh, std::span<const double> modulus) {
   Dual dual;
   find_edges(mesh, dual);
-  for (const auto& t : mesh.tets)
+  dual.has_springs = !modulus.empty();
+  for (const auto& t : mesh.tets) {
+    double c = 0;
+    for (const int n : t) c += dual.has_springs ? 0.25 * modulus[n] : 0;
     for (const auto& e : tet_edges) {
       const int a = t[e[0]], b = t[e[1]];
       const Vec3 C = area_in_tet(mesh, t, e);
       DualEdge& edge = dual.edges[edge_of(dual, std::min(a, b), std::max(a, b))];
       edge.C = a < b ? edge.C + C : edge.C - C;
+      if (dual.has_springs) edge.stiffness += spring_in_tet(mesh, t, e, c);
     }
+  }
   dual.volume.assign(mesh.X.size(), 0.0);
   for (const auto& t : mesh.tets) {
     const double quarter = 0.25 * tet_volume(mesh.X[t[0]], mesh.X[t[1]], mesh.X[t[2]], mesh.X[t[3]]);

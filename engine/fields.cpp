@@ -24,9 +24,14 @@ const double* PH_row(const Simulation& s, int node) {
                     [static_cast<std::size_t>(row::PH * s.domain.order.row_of[static_cast<std::size_t>(node)])];
 }
 
-/// P_iI of the material [Pa]: without the flux correction that the next step's first stage takes.
+/// P_iI of the material [Pa]: without the tets' share, and without the flux correction that the next step's first stage takes.
 double P_at(const Simulation& s, int node, int i, int I) {
-  const double P = PH_row(s, node)[8 * I + i];
+  const Domain& d = s.domain;
+  const double rest = i == I && !d.coefficients.current_areas ? 1 : 0,
+               c = d.scene->physics.tet_stiffness > 0
+                       ? tet_stiffness_at(d, d.order.row_of[static_cast<std::size_t>(node)])
+                       : 0,
+               P = PH_row(s, node)[8 * I + i] + c * (U_row(s, node)[4 * (I + 1) + i] - rest);
   if (!s.state.has_lagged_correction || s.state.dP.empty()) return P;
   return P
          - s.state.dP[static_cast<std::size_t>(row::dP * s.domain.order.row_of[static_cast<std::size_t>(node)] + 4 * I

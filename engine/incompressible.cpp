@@ -113,6 +113,7 @@ std::string project_stage(Simulation& s, const ProjectedStage& rk) {
     next.U_new = u.U[rk.to].data();
     next.W_new = u.W[0].data();
     next.PH_new = u.PH[0].data();
+    next.detF = u.barrier.detF.data();
     for_parts(s, [&](int i, Scratch scratch) {
       const Part& part = d.order.parts[i];
       if (rk.old != 0) average_part(part, d, u, rk);

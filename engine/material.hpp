@@ -35,7 +35,23 @@ inline MaterialConstants constants_of(const MaterialSpec& m) {
   c.zeta = 0.5 * (c.mu - 3 * std::sqrt(3.0) * c.xi);
   c.cp = std::sqrt((c.kappa + 4.0 / 3.0 * c.mu) / c.rho);
   c.cs = std::sqrt(c.mu / c.rho);
+  c.cJ = c.cp;
   c.hardening = hardening_of(m);
+  return c;
+}
+
+/// The shear modulus that tets take their shares of [Pa]: mu, or of a law that yields its first yield stress, of the size of what flowing metal still resists with.
+inline double tet_modulus(const MaterialSpec& m, const MaterialConstants& c) {
+  return m.law == Law::hencky_j2 ? c.hardening.tau_y[0] : c.mu;
+}
+
+/// Of a material in a scene: with what the physics adds to its law.
+inline MaterialConstants constants_of(const MaterialSpec& m, const PhysicsSpec& physics) {
+  MaterialConstants c = constants_of(m);
+  c.parting = physics.parting * c.mu;
+  c.cJ = std::sqrt((c.kappa + c.parting + 4.0 / 3.0 * c.mu) / c.rho);
+  c.tet_stiffness = physics.tet_stiffness * tet_modulus(m, c);
+  c.tet_barrier = physics.tet_barrier * tet_modulus(m, c);
   return c;
 }
 

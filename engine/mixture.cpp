@@ -21,12 +21,12 @@ std::vector<MaterialLaw> make_laws(const Scene& scene) {
   std::vector<MaterialLaw> laws;
   for (const MaterialSpec& m : scene.materials) {
     MaterialLaw law;
-    law.constants = constants_of(m);
+    law.constants = constants_of(m, scene.physics);
     law.has_state = law_traits(m.law).has_state;
-    law.constants.parting = scene.physics.parting * law.constants.mu;
     law.rho_cp = law.constants.rho * law.constants.cp;
     law.rho_cs = law.constants.rho * law.constants.cs;
     if (scene.physics.formulation == Formulation::pFp) law.rho_cp = law.rho_cs;  // no pressure waves
+    law.rho_cJ = law.constants.rho * law.constants.cJ;
     law.functions = find_part_functions(scene.physics, m);
     laws.push_back(law);
   }
@@ -81,37 +81,42 @@ double mean_at(const Mixture& m, std::size_t n, Value value) {
   return sum;
 }
 
-/// rho c_p and rho c_s of an edge: means of its two nodes. Padding edges are never used, but their lanes are computed.
+/// rho c_p, rho c_s and, with an energy of the parting, rho c_J of an edge: means of its two nodes. Padding edges are never used, but their lanes are computed.
 void find_impedances(const Mixture& m, Order& o) {
   const std::size_t edges = static_cast<std::size_t>(o.out.back());
   o.rho_cp.assign(o.a.size(), 1.0);
   o.rho_cs.assign(o.a.size(), 1.0);
+  const bool parted = std::ranges::any_of(m.laws, [](const MaterialLaw& l) { return l.constants.parting > 0; });
+  if (parted) o.rho_cJ.assign(o.a.size(), 1.0);
   for (std::size_t e = 0; e < edges; ++e) {
     const std::size_t a = static_cast<std::size_t>(o.a[e]), b = static_cast<std::size_t>(o.b[e]);
     const auto mean = [&](auto value) { return 0.5 * (mean_at(m, a, value) + mean_at(m, b, value)); };
     o.rho_cp[e] = mean([](const MaterialLaw& l) { return l.rho_cp; });
     o.rho_cs[e] = mean([](const MaterialLaw& l) { return l.rho_cs; });
+    if (parted) o.rho_cJ[e] = mean([](const MaterialLaw& l) { return l.rho_cJ; });
   }
 }
 
 /// The stress sweep bounds a node's step by its own waves; across an edge to a harder or denser node D^p acts with the speed rho c_p(edge)/rho(node), D^J with
-/// kappa(node)/rho c_p(edge). Where these are larger, the length of the node's step is shortened by as much.
+/// (kappa + M)(node)/rho c_J(edge). Where these are larger, the length of the node's step is shortened by as much.
 void shorten_steps(const Mixture& m, const Order& o, bool projected, Aligned<double>& step_length) {
   std::vector<double> excess(static_cast<std::size_t>(o.rows), 1.0);
-  const auto visit = [&](std::size_t n, double rho_cp) {
-    double c = 0;  // of the law's own waves
+  const double* rho_cJ = o.edges().rho_cJ;
+  const auto visit = [&](std::size_t n, std::size_t e) {
+    double c = 0, of_J = 0;  // of the law's own waves, and of its J
     for (const int law : m.groups[static_cast<std::size_t>(m.group[n])]) {
-      const MaterialConstants& own = m.laws[static_cast<std::size_t>(law)].constants;
-      c = std::max(c, projected ? own.cs : own.cp);
+      const MaterialLaw& own = m.laws[static_cast<std::size_t>(law)];
+      c = std::max(c, projected ? own.constants.cs : own.constants.cp);
+      of_J = std::max({of_J, c, (own.constants.kappa + own.constants.parting) / own.rho_cJ});
     }
-    excess[n] = std::max(excess[n], rho_cp / (m.rho[n] * c));
+    excess[n] = std::max(excess[n], o.rho_cp[e] / (m.rho[n] * c));
     if (projected) return;
     const double kappa = mean_at(m, n, [](const MaterialLaw& l) { return l.constants.kappa + l.constants.parting; });
-    excess[n] = std::max(excess[n], kappa / (rho_cp * c));
+    excess[n] = std::max(excess[n], kappa / (rho_cJ[e] * of_J));
   };
   for (std::size_t e = 0; e < static_cast<std::size_t>(o.out.back()); ++e) {
-    visit(static_cast<std::size_t>(o.a[e]), o.rho_cp[e]);
-    visit(static_cast<std::size_t>(o.b[e]), o.rho_cp[e]);
+    visit(static_cast<std::size_t>(o.a[e]), e);
+    visit(static_cast<std::size_t>(o.b[e]), e);
   }
   for (std::size_t n = 0; n < excess.size(); ++n) step_length[n] /= excess[n];
 }
@@ -138,6 +143,7 @@ Coefficients of_law(Coefficients k, const MaterialLaw& law) {
   k.material = law.constants;
   k.rho_cp = law.rho_cp;
   k.rho_cs = law.rho_cs;
+  k.rho_cJ = law.rho_cJ;
   return k;
 }
 
@@ -199,6 +205,24 @@ NodeMaterials node_materials(const Scene& scene, const Mesh& mesh) {
   return out;
 }
 
+std::vector<double> tet_stiffness_of_nodes(const Scene& scene, const NodeMaterials& nodes, std::size_t count) {
+  if (scene.physics.tet_stiffness == 0) return {};
+  if (nodes.volume.empty())
+    return std::vector<double>(count, constants_of(scene.material, scene.physics).tet_stiffness);
+  const std::size_t materials = scene.materials.size();
+  std::vector<double> modulus(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    double sum = 0, total = 0;
+    for (std::size_t r = 0; r < materials; ++r) {
+      const double volume = nodes.volume[materials * n + r];
+      sum += volume * constants_of(scene.materials[r], scene.physics).tet_stiffness;
+      total += volume;
+    }
+    modulus[n] = sum / total;
+  }
+  return modulus;
+}
+
 Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& order, Aligned<double>& step_length) {
   Mixture m;
   if (nodes.group.empty()) return m;
@@ -247,6 +271,8 @@ PartReport mixed_stress(const Mixture& m, const MaterialRun& run, const Rows& ro
       const double Sigma_J = first ? 0.0 : rows.W_new[row::W * n + 3];
       store4(rows.W_new + row::W * n, load4(mine.W_new + row::W * n));
       rows.W_new[row::W * n + 3] = Sigma_J + w * mine.W_new[row::W * n + 3];
+      for (int I = 0; I < 3; ++I)  // the displacement is no mean
+        rows.PH_new[row::PH * n + 8 * I + 7] = mine.PH_new[row::PH * n + 8 * I + 7];
     }
   }
   return report;
@@ -272,6 +298,10 @@ Aligned<double> means_of_rows(const Mixture& m, double (*value)(const MaterialLa
   return means;
 }
 
+double mean_at(const Mixture& m, int n, double MaterialConstants::*constant) {
+  return mean_at(m, static_cast<std::size_t>(n), [&](const MaterialLaw& l) { return l.constants.*constant; });
+}
+
 double plastic_strain(const Mixture& m, const Aligned<double>& plastic, int n) {
   const auto of = [&](std::ptrdiff_t states) {
     return plastic[static_cast<std::size_t>(row::plastic * (states + n) + 3)];
@@ -286,7 +316,7 @@ double plastic_strain(const Mixture& m, const Aligned<double>& plastic, int n) {
 }
 
 std::size_t mixture_bytes(const Mixture& m, const Order& order) {
-  std::size_t doubles = m.rho.size() + order.rho_cp.size() + order.rho_cs.size();
+  std::size_t doubles = m.rho.size() + order.rho_cp.size() + order.rho_cs.size() + order.rho_cJ.size();
   for (const auto& s : m.share) doubles += s.size();
   return 8 * doubles + 4 * m.group.size();
 }

@@ -30,8 +30,8 @@ struct MaterialRun {
 
 struct MaterialLaw {
   MaterialConstants constants;
-  double rho_cp = 0, rho_cs = 0;  // [kg/(m^2 s)]
-  PartFunctions functions;        // stress, strain_energy
+  double rho_cp = 0, rho_cs = 0, rho_cJ = 0;  // [kg/(m^2 s)]
+  PartFunctions functions;                    // stress, strain_energy
   bool has_state = false;
   std::ptrdiff_t states = 0;  // where the rows of its plastic states begin: laws that share nodes have rows apart
 };
@@ -50,6 +50,9 @@ struct Mixture {
   bool empty() const { return laws.empty(); }
 };
 
+/// Modulus of the energy of the tets at every mesh node, mean of the materials around it [Pa]; empty where there is none.
+std::vector<double> tet_stiffness_of_nodes(const Scene& scene, const NodeMaterials& nodes, std::size_t count);
+
 /// Also the impedances of the edges of `order`, and `step_length` of nodes whose edges stabilise faster than their own waves run.
 Mixture make_mixture(const Scene& scene, const NodeMaterials& nodes, Order& order, Aligned<double>& step_length);
 
@@ -67,6 +70,9 @@ Aligned<double> means_of_rows(const Mixture& mixture, double (*value)(const Mate
 
 /// Mean of the laws' equivalent plastic strains at a row by volume [-]; of one material its own.
 double plastic_strain(const Mixture& mixture, const Aligned<double>& plastic, int row);
+
+/// Mean of a constant of the materials at a row by volume.
+double mean_at(const Mixture& mixture, int row, double MaterialConstants::*constant);
 
 /// Sum of Omega_a,r psi_r(F, H, J) [J].
 double mixed_energy(const Mixture& mixture, const MaterialRun& run, const Rows& rows, const Coefficients& k);

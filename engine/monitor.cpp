@@ -8,6 +8,7 @@
 
 #include "engine/parts.hpp"
 #include "engine/step_bound.hpp"
+#include "kernels/springs.hpp"
 
 namespace nanson {
 namespace {
@@ -52,6 +53,11 @@ Energies energies(const Simulation& s) {
     part.node_end = part.node_begin + nodes_of(s.domain, part);
     return s.domain.functions.strain_energy(part, rows, s.domain.coefficients);
   });
+  const EdgeArrays edges = s.domain.order.edges();
+  if (edges.stiffness)
+    e.strain += sum_over_parts(
+        s, [&](int p) { return spring_energy_part(s.domain.order.parts[static_cast<std::size_t>(p)], edges, rows); });
+  if (s.domain.scene->physics.tet_barrier > 0) e.strain += crushing_energy(s);
   return e;
 }
 

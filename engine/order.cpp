@@ -180,6 +180,7 @@ void place_edges(Order& o, const Dual& dual) {
   o.a.assign(count + ahead::padding, 0);
   o.b.assign(count + ahead::padding, 0);
   for (auto& C : o.C) C.assign(count + ahead::padding, 0);
+  if (dual.has_springs) o.stiffness.assign(count + ahead::padding, 0);
   o.in.assign(static_cast<std::size_t>(o.rows) + 1, 0);
   for (int a = 0; a < o.rows; ++a) {
     std::sort(halves.begin() + o.out[a], halves.begin() + o.out[a + 1],
@@ -190,6 +191,7 @@ void place_edges(Order& o, const Dual& dual) {
       o.a[i] = a;
       o.b[i] = h.b;
       for (int k = 0; k < 3; ++k) o.C[k][i] = h.flipped ? -C[k] : C[k];
+      if (dual.has_springs) o.stiffness[i] = dual.edges[h.edge].stiffness;
       if (part_of[a] == part_of[h.b]) ++o.in[h.b + 1];
     }
   }

@@ -27,7 +27,8 @@ struct Order {
 
   Aligned<std::int32_t> a, b;  // edges
   Aligned<double> C[3];
-  Aligned<double> rho_cp, rho_cs;                             // several materials only, filled in by engine/mixture
+  Aligned<double> rho_cp, rho_cs, rho_cJ;  // several materials only, filled in by engine/mixture; rho_cJ with a parting
+  Aligned<double> stiffness;               // [N/m] tet_stiffness only
   Aligned<std::int32_t> out, in, in_edges, in_nodes, corner;  // node lists
   Aligned<std::int32_t> corner_b, corner_c, corner_load;
   Aligned<double> corner_C[3];
@@ -35,7 +36,8 @@ struct Order {
   int most_nodes = 0, most_edges = 0, most_corners = 0;  // of a part
 
   EdgeArrays edges() const {
-    return {a.data(), b.data(), {C[0].data(), C[1].data(), C[2].data()}, {}, rho_cp.data(), rho_cs.data()};
+    return {a.data(),      b.data(),      {C[0].data(), C[1].data(), C[2].data()},        {},
+            rho_cp.data(), rho_cs.data(), rho_cJ.empty() ? rho_cp.data() : rho_cJ.data(), stiffness.data()};
   }
   CornerArrays corners() const {
     return {corner_b.data(),

@@ -59,6 +59,10 @@ double impedance_ratio(const Scene& s) {
   return most / least;
 }
 
+bool is_papers_boundary(const Scene& s) { return s.physics.boundary_flux == BoundaryFlux::paper; }
+
+constexpr std::string_view needs_adjoint =
+    "needs boundary_flux = \"adjoint\": its forces on the nodes of a tet stand against the adjoint force of their mean";
 constexpr std::string_view needs_J = "needs an evolved J: formulation = \"pFJ\" or \"pFHJ\"",
                            exact = "has no exact solution with initial.field = \"manufactured\"",
                            plastic_strain = "plastic_strain needs material.law = \"hencky_j2\"";
@@ -120,6 +124,15 @@ constexpr PhysicsRule rules[] = {
     {"physics.parting", "material.law",
      [](const Scene& s, const Spec& m) { return s.physics.parting > 0 && law_traits(m.law).is_linear; },
      "has no meaning for linear_elastic, whose J is 1 + tr(F - I) and not det F"},
+
+    // energies of the tets
+    {"physics.tet_stiffness", "physics.boundary_flux",
+     [](const Scene& s, const Spec&) { return s.physics.tet_stiffness > 0 && is_papers_boundary(s); }, needs_adjoint},
+    {"physics.tet_barrier", "physics.boundary_flux",
+     [](const Scene& s, const Spec&) { return s.physics.tet_barrier > 0 && is_papers_boundary(s); }, needs_adjoint},
+    {"physics.tet_barrier", "material.law",
+     [](const Scene& s, const Spec& m) { return s.physics.tet_barrier > 0 && law_traits(m.law).is_linear; },
+     "has no meaning for linear_elastic, whose volume is 1 + tr(F - I) and not det F"},
 
     // current area vectors
     {"material.law", "physics.description",

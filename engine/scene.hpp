@@ -102,7 +102,9 @@ struct PhysicsSpec {
   BoundaryFlux boundary_flux = BoundaryFlux::adjoint;
   UpwindMetric upwind_metric = UpwindMetric::deformed;
   EntropyFix entropy_fix = EntropyFix::none;
-  double parting = 0;                  // [-] M/mu of the energy of the parting of det F from J; 0: none
+  double parting = 0;        // [-] M/mu of the energy of the parting of det F from J; 0: none
+  double tet_stiffness = 0;  // [-] of the tets' modulus: energy of what they deform beyond their nodes; 0: none
+  double tet_barrier = 0;    // [-] of the tets' modulus: energy of tets crushed beyond their nodes; 0: none
   bool keep_angular_momentum = false;  // tvd_rk2 only
   Description description = Description::total;
 };

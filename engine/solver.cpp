@@ -76,6 +76,7 @@ std::string stage(Simulation& s, int number, const RungeKuttaStage& rk) {
     find_forces(s, rows.U_stage, u.t + rk.at * u.dt);
     s.books.external_work += rk.mean * u.dt * power_of_loads(s, rows.W);
   });
+  if (physics.tet_barrier > 0) s.team.clock.time("tet_barrier", [&] { rows.crushing = resist_crushing(s, rows); });
   if (has_current_areas(physics.description))
     s.team.clock.time("current_areas", [&] { find_current_areas(s, rows.U_stage); });
   if (neighbours)
@@ -178,6 +179,8 @@ std::string judge_step(Simulation& s, const std::function<std::string()>& asked_
 void advance(Simulation& s) {
   State& u = s.state;
   prescribe(s.domain.boundary, u);
+  if (s.domain.scene->physics.tet_barrier > 0 && (!u.barrier.is_watched || u.step % watch_steps == 0))
+    s.team.clock.time("tet_barrier", [&] { watch_tets(s); });
   int number = 0;
   for (const RungeKuttaStage& rk : stages_of(*s.domain.scene)) {
     const std::string failure = stage(s, number, rk);

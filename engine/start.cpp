@@ -119,6 +119,7 @@ Simulation start(Domain domain, Team team) {
     set_initial_state(s.domain, s.state);
     s.books.lost_at_start = constrain_start(s.domain, s.state);
     find_stress(s);
+    if (s.domain.scene->physics.tet_barrier > 0) watch_tets(s);  // their energy is asked for before the first step
     open_books(s);
     find_forces(s, s.state.U[0].data(), 0, true);
     if (s.domain.scene->monitor.involutions) s.state.initial_mismatch = gradient_mismatch(s);

@@ -28,6 +28,7 @@ State make_state(const Domain& d) {
   each_array(d, s, [](const ArrayRole& role, Aligned<double>& array) { array.assign(role.size, 0.0); });
   set_undeformed(d, s);
   s.reports.resize(d.order.parts.size());
+  if (d.scene->physics.tet_barrier > 0) s.barrier.parts.resize(d.order.parts.size());
   s.acceleration.assign(d.scene->boundary.size(), 0.0);
   s.next_frame = d.scene->output.every;
   return s;
@@ -60,6 +61,7 @@ Rows stage_rows(const Domain& d, State& u, int from, int to) {
   r.PH_new = u.PH[next].data();
   r.plastic = u.plastic.data();
   r.plastic_new = u.plastic.data();
+  r.detF = u.barrier.detF.data();
   return r;
 }
 
@@ -69,6 +71,7 @@ Rows present_rows(const Domain& d, const State& u) {
   r.rho = d.mixture.rho.data();
   r.U_stage = u.U[0].data();
   r.H_stage = u.H[0].data();
+  r.PH = u.PH[u.now].data();
   r.plastic = u.plastic.data();
   return r;
 }
@@ -96,6 +99,9 @@ std::vector<std::string> fields_left_out(const Scene& scene) {
   if (p.reconstruction != Reconstruction::limited) out.push_back("limiter (reconstruction is not limited): 32 bytes");
   if (!p.keep_angular_momentum)
     out.push_back("angular momentum projection (keep_angular_momentum = false): two passes over the nodes a stage");
+  if (p.tet_stiffness == 0)
+    out.push_back("springs between nodes (tet_stiffness = 0): their stiffness, 8 bytes an edge");
+  if (p.tet_barrier == 0) out.push_back("barrier of crushed tets (tet_barrier = 0): 40 bytes and their lists");
   if (scene.materials.empty())
     out.push_back("densities and material shares of nodes, impedances of edges (one material): about 150 bytes");
   if (!scene.monitor.energy)

@@ -5,6 +5,7 @@
 
 #include "engine/domain.hpp"
 #include "engine/node_state.hpp"
+#include "engine/tet_barrier.hpp"
 
 namespace nanson {
 
@@ -30,6 +31,7 @@ struct State {
   Aligned<double> mean_reactions;      // mean of the last step's stages
   Aligned<double> initial_mismatch;    // [-] monitor.involutions: F - grad x at the start, 9 a row
   CurrentGeometry current;             // current areas only
+  TetBarrier barrier;                  // physics.tet_barrier only
   Projection projection;               // pFp only
   std::vector<PartReport> reports;     // one a part
   std::vector<double> acceleration;    // [1/s] per boundary condition: rate of the time factor over the step
@@ -87,6 +89,8 @@ void each_array(const Domain& d, SomeState& u, Visit visit) {
     say("c_corner", Keep::work, corners, current, u.current.corner[k]);
   }
   say("dJ", Keep::work, nodes, current, u.current.dJ);
+  say("detF", Keep::carried, nodes, p.tet_barrier > 0, u.barrier.detF);
+  say("crushing", Keep::work, 4 * nodes, p.tet_barrier > 0, u.barrier.force);
   auto& q = u.projection;
   say("projection_E", Keep::work, row::E * edges, projected, q.E);
   say("projection_B", Keep::work, row::B * corners, projected, q.B);

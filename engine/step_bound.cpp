@@ -49,6 +49,7 @@ double fastest_at(const Simulation& s, int n, Eight& eight) {
 double allowed_step(const Simulation& s) {
   double fastest = 0;
   for (const PartReport& r : s.state.reports) fastest = std::max(fastest, r.fastest);
+  fastest = std::max(fastest, s.state.barrier.fastest);
   return s.domain.scene->time.cfl / fastest;
 }
 

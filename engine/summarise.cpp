@@ -57,6 +57,8 @@ Summary summarise(const Simulation& s, const std::vector<Probe>& probes, const s
   out.stabilisation = word(p.stabilisation);
   out.pressure_jump = word(p.pressure_jump);
   out.parting = p.parting;
+  out.tet_stiffness = p.tet_stiffness;
+  out.tet_barrier = p.tet_barrier;
   out.integrator = word(scene.time.integrator);
   out.step = word(scene.time.step);
   out.split = scene.mesh.source == MeshSource::box ? word(scene.mesh.split) : word(scene.mesh.source);

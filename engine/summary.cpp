@@ -136,6 +136,8 @@ constexpr SummaryEntry table[] = {
     {"upwind_metric", "", "as in the scene", of<&S::upwind_metric>},
     {"pressure_jump", "", "as in the scene", of<&S::pressure_jump>},
     {"parting", "-", "as in the scene, M/mu", of<&S::parting>},
+    {"tet_stiffness", "-", "as in the scene, modulus over mu", of<&S::tet_stiffness>},
+    {"tet_barrier", "-", "as in the scene, modulus over mu", of<&S::tet_barrier>},
     {"keep_angular_momentum", "", "as in the scene", of<&S::keep_angular_momentum>},
     {"integrator", "", "as in the scene", of<&S::integrator>},
     {"step", "", "as in the scene", of<&S::step>},

@@ -46,7 +46,8 @@ struct Summary {
   std::string reason;           // why it did not end as asked; empty when done
   std::string cause;            // one word for the reason (solver.hpp); empty when done
   std::string scene, formulation, material, description, stabilisation, reconstruction, flux_correction;
-  double parting = 0;  // [-] M/mu
+  double parting = 0;                         // [-] M/mu
+  double tet_stiffness = 0, tet_barrier = 0;  // [-] of the tets' modulus
   std::string boundary_flux, upwind_metric, pressure_jump, integrator, step, split;
   long nodes = 0, tets = 0, edges = 0, steps = 0;
   double t_end = 0, dt_min = 0, dt_max = 0;  // [s]

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <numeric>
 
-#include "kernels/extrema_part.hpp"
-
 namespace nanson {
 
 TetArrays Tets::arrays() const {
@@ -32,6 +30,7 @@ Tets make_tets(const Mesh& mesh, const Order& order, const Aligned<double>& X) {
     out.first.push_back(static_cast<int>(out.corner[0].size()));
     const auto begin = next;
     for (; next != sorted.end() && lowest[static_cast<std::size_t>(*next)] < part.node_end; ++next) add(*next);
+    out.last.push_back(static_cast<int>(out.corner[0].size()));
     while (begin != next && out.corner[0].size() % 8 != 0) add(*(next - 1));
   }
   out.first.push_back(static_cast<int>(out.corner[0].size()));
@@ -39,6 +38,26 @@ Tets make_tets(const Mesh& mesh, const Order& order, const Aligned<double>& X) {
   for (std::size_t t = 0; t < out.volume6.size(); t += 8)
     store8(&out.volume6[t], volumes6(out.arrays(), static_cast<std::ptrdiff_t>(t), X.data(), row::X, 0, 1));
   return out;
+}
+
+void find_foreign(Tets& tets, const Order& order) {
+  std::vector<std::vector<int>> of_part(order.parts.size());
+  std::vector<int> part_of(static_cast<std::size_t>(order.rows));
+  for (std::size_t p = 0; p < order.parts.size(); ++p)
+    std::fill(part_of.begin() + order.parts[p].node_begin, part_of.begin() + order.parts[p].node_end,
+              static_cast<int>(p));
+  for (std::size_t p = 0; p < order.parts.size(); ++p)
+    for (int t = tets.first[p]; t < tets.last[p]; ++t)
+      for (const auto& corner : tets.corner) {
+        const int q = part_of[static_cast<std::size_t>(corner[static_cast<std::size_t>(t)])];
+        auto& list = of_part[static_cast<std::size_t>(q)];
+        if (q != static_cast<int>(p) && (list.empty() || list.back() != t)) list.push_back(t);
+      }
+  for (const auto& list : of_part) {
+    tets.first_foreign.push_back(static_cast<int>(tets.foreign.size()));
+    tets.foreign.insert(tets.foreign.end(), list.begin(), list.end());
+  }
+  tets.first_foreign.push_back(static_cast<int>(tets.foreign.size()));
 }
 
 }  // namespace nanson

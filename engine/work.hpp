@@ -24,7 +24,7 @@ struct Sizes {
 
 /// What the traits mean for the counts: numbers in {v, Sigma_J} that matter, and which rows exist.
 struct Carried {
-  bool linear, limited, fixed, jst, J, H, tensor, full, corrected, pressure, deformed;
+  bool linear, limited, fixed, jst, J, H, tensor, full, corrected, pressure, deformed, springs, barrier;
   double w;  // 3 or 4
   explicit Carried(const PhysicsSpec& p)
       : linear(p.reconstruction != Reconstruction::constant),
@@ -38,6 +38,8 @@ struct Carried {
         corrected(p.flux_correction != FluxCorrection::none),
         pressure(p.flux_correction == FluxCorrection::pressure),
         deformed(p.upwind_metric == UpwindMetric::deformed),
+        springs(p.tet_stiffness > 0),
+        barrier(p.tet_barrier > 0),
         w(J || pressure ? 4 : 3) {}
 };
 
@@ -46,7 +48,8 @@ inline constexpr double X = 32, U = 128, H = 96, W = 32, PH = 192, G = 96, dP = 
                         step_length = 8, force = 32;
 inline constexpr double lists = 12;                          // out, in, corner
 inline constexpr double edge = 28, edge_a = 4, in_edge = 8;  // b, C; a; edge number and first node
-inline constexpr double corner = 32, corner_load = 4;        // b, c, C; load
+inline constexpr double spring = 8, detF = 8;
+inline constexpr double corner = 32, corner_load = 4;  // b, c, C; load
 }  // namespace bytes
 
 /// How often a row counts that only other sweeps read.
@@ -82,7 +85,8 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s, bool audits = false
   if (c.jst) {
     out.bytes = s.nodes * (bytes::PH + bytes::L + 8) + s.edges * bytes::edge
                 + s.corners * (bytes::corner + bytes::corner_load);
-    out.flops = s.edges * (3 * (3 + 1 + 6) + 4 * n) + s.corners * 9 * 5;
+    out.flops = s.edges * (3 * (3 + 1 + 6) + 4 * n + (c.springs ? 9 : 0)) + s.corners * 9 * 5;
+    if (c.springs) out.bytes += s.edges * bytes::spring;
     return out;
   }
   out.bytes = s.nodes
@@ -99,6 +103,10 @@ inline Work edge_flux_work(const Carried& c, const Sizes& s, bool audits = false
   if (c.J) flops += 3 + 2;  // D^J
   if (audits) flops += 5 + 5 + 4 + 1 + (c.J ? 2 : 0);  // (d.plain); (c.plain); power
   if (c.pressure) flops += 1;
+  if (c.springs) {
+    flops += 3 + 6;  // stretch; times the stiffness
+    out.bytes += s.edges * bytes::spring;
+  }
   if (c.tensor) flops += 9 * (1 + 2) + 5 + 1 + (c.linear ? 9 * 3 * 3 : 0);  // jump of P times C, along c
   out.flops = s.edges * flops + s.corners * 9 * 5;
   return out;
@@ -126,10 +134,10 @@ inline Work force_work(const Sizes& s) { return {s.nodes * bytes::force, 0}; }
 
 /// stress_part: reads the state and the step length, writes W and PH; `law_flops` of one node as counted by engine/counted.hpp.
 inline Work stress_work(const Carried& c, const Sizes& s, double law_flops, bool alone) {
-  return {
-      s.nodes
-          * ((alone ? bytes::U + (c.H ? bytes::H : 0) : 0) + bytes::step_length + written(s) * (bytes::W + bytes::PH)),
-      s.nodes * (law_flops + 14 + (c.J ? 4 : 0))};
+  return {s.nodes
+              * ((alone ? bytes::U + (c.H ? bytes::H : 0) + (c.springs ? bytes::X : 0) : 0) + bytes::step_length
+                 + written(s) * (bytes::W + bytes::PH) + (c.barrier ? 2 * bytes::detF : 0)),
+          s.nodes * (law_flops + 14 + (c.J ? 4 : 0) + (c.springs ? 3 + 21 : 0))};
 }
 
 /// A step of the fused schedule with linear reconstruction: two sweeps a stage. With two stages the first takes the flux correction that the last of the step before has

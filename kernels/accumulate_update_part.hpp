@@ -25,6 +25,7 @@ NANSON_INLINE void gather(const Part& part, const EdgeArrays& edges, const NodeL
   for (int n = part.node_begin; n < part.node_end; ++n) {
     const double inverse_volume = rows.X[row::X * n + 3];
     Vec4 f = rows.force ? load4(rows.force + 4 * n) : Vec4{};
+    if (rows.crushing) f = f + load4(rows.crushing + 4 * n);
     Vec8 g[3] = {concat(f, Vec4{})};  // {force | column 0 of dG}, {unused | column 1}, {unused | column 2}
     const auto add = [&](auto sense, std::ptrdiff_t e) {
       const double* r = buffer + width * (e - part.edge_begin);

@@ -27,9 +27,9 @@ NANSON_INLINE void current_corner_forces(const Part& part, const CornerArrays& c
                                          const Rows& rows, const Coefficients& k, double* buffer) {
   const auto traction = [&](std::int32_t n, std::int32_t g) {
     const double* sigma = rows.PH + row::PH * n + 4;
-    const Vec4 t = fma(load4(sigma + 8), broadcast4(corners.c_gamma[1][g]),
-                       load4(sigma) * broadcast4(corners.c_gamma[0][g]));
-    return fma(load4(sigma + 16), broadcast4(corners.c_gamma[2][g]), t);
+    Vec4 t = fma(load4(sigma + 8), broadcast4(corners.c_gamma[1][g]), load4(sigma) * broadcast4(corners.c_gamma[0][g]));
+    t = fma(load4(sigma + 16), broadcast4(corners.c_gamma[2][g]), t);
+    return Vec4{t[0], t[1], t[2], 0.0};  // u stands in lane 3
   };
   for (int a = part.node_begin; a < part.node_end; ++a)
     for (std::int32_t g = lists.corner[a]; g < lists.corner[a + 1]; ++g) {

@@ -4,6 +4,7 @@
 #include "kernels/flux.hpp"
 #include "kernels/part.hpp"
 #include "kernels/reconstruction.hpp"
+#include "kernels/springs.hpp"
 
 namespace nanson {
 
@@ -58,6 +59,7 @@ NANSON_INLINE void gather_edges(int begin, int end, const EdgeArrays& edges, con
     Vec8 tc = average_traction_and_area(PH_a, rows.PH + row::PH * b, C);
     if constexpr (areas == Areas::current)
       tc = concat(high(tc), Vec4{C[0], C[1], C[2], 0.0});  // {sigma_ave c, 0 | c, 0}
+    if (edges.stiffness) tc = tc + concat(spring_force<areas>(edges, e, rows), Vec4{});
     const Vec4 D = load4(rows.X + row::X * b) - load4(rows.X + row::X * a),
                plain = load4(rows.W + row::W * b) - load4(rows.W + row::W * a);
     const int at = e - begin;
@@ -87,7 +89,7 @@ NANSON_INLINE void prefetch_U(std::ptrdiff_t n, const Rows& rows, bool takes_lag
     }
 }
 
-/// Second pass over eight edges, from the block's `at` and the part's edge e: {P_ave C + D^p, D^J} into rows of `width`. Returns the power of the stabilisation alone,
+/// Second pass over eight edges, from the block's `at` and the part's edge e: {P_ave C + spring + D^p, D^J} into rows of `width`. Returns the power of the stabilisation alone,
 /// (v_b - v_a) . D^p + (Sigma_b - Sigma_a) D^J with the plain nodal differences (paper, eq. 71; method, section 11), where the scene audits [W].
 template <int width, PressureJump jump, bool plain_jumps, Areas areas>
 NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, const EdgeArrays& edges, std::ptrdiff_t e,
@@ -102,8 +104,9 @@ NANSON_INLINE Vec8 finish_edges(const EdgeBlock& block, int at, const EdgeArrays
   const Vec8 cc = dot(c, c), size = edge_sizes(edges, e);
   EdgeCoefficientsOf<Vec8> s = edges.rho_cp
                                    ? edge_coefficients(cc, size, load8_anywhere(edges.rho_cp + e),
-                                                       load8_anywhere(edges.rho_cs + e), choices.deformed_metric)
-                                   : edge_coefficients(cc, size, k.rho_cp, k.rho_cs, choices.deformed_metric);
+                                                       load8_anywhere(edges.rho_cs + e),
+                                                       load8_anywhere(edges.rho_cJ + e), choices.deformed_metric)
+                                   : edge_coefficients(cc, size, k.rho_cp, k.rho_cs, k.rho_cJ, choices.deformed_metric);
   if (!choices.evolves_J) s.volume = Vec8{};
   if constexpr (jump == PressureJump::tensor) {
     load_transposed(block.y + 4 * at, 4, y[0], y[1], y[2], y[3]);

@@ -7,7 +7,8 @@ namespace nanson {
 
 /// Stabilisation of one edge, before it meets the jump: D^p = shear d + normal (c . d) c with d the jump of v, D^J = volume (jump of Sigma_J).
 /// c = H_ave C; size = |C|; cn = c_p-scale of the normal part times |C|: |C| (paper) or max(|C|, |c|), that is c_p max(1, |H_ave N|) (deformed).
-/// D^p = 1/2 [rho cs |C| d + (rho cp cn - rho cs |C|) (c.d)/(c.c) c] (eq. 36a, 37, 41); D^J = (Sigma+ - Sigma-) c.c / (2 rho cp cn) (Remark 4, eq. 42).
+/// D^p = 1/2 [rho cs |C| d + (rho cp cn - rho cs |C|) (c.d)/(c.c) c] (eq. 36a, 37, 41); D^J = (Sigma+ - Sigma-) c.c / (2 rho cJ cn) (Remark 4, eq. 42, where
+/// cJ is cp; with an energy of the parting cp of kappa + M, the stiffness that J meets).
 /// One edge (double) or eight as lanes (Vec8); Z: the impedances, double where all edges share them.
 template <class Real>
 struct EdgeCoefficientsOf {
@@ -17,11 +18,12 @@ struct EdgeCoefficientsOf {
 };
 
 template <class Real, class Z>
-NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, Z rho_cp, Z rho_cs, bool deformed_metric) {
+NANSON_INLINE EdgeCoefficientsOf<Real> edge_coefficients(Real cc, Real size, Z rho_cp, Z rho_cs, Z rho_cJ,
+                                                         bool deformed_metric) {
   const Real cn = deformed_metric ? larger(size, root(cc)) : size;
   const Real inverse = 1.0 / (cc * cn);
   const Real shear = 0.5 * (rho_cs * size);
-  return {shear, fma(Real{} + 0.5 * rho_cp, cn, -shear) * (inverse * cn), (0.5 / rho_cp) * (cc * cc) * inverse};
+  return {shear, fma(Real{} + 0.5 * rho_cp, cn, -shear) * (inverse * cn), (0.5 / rho_cJ) * (cc * cc) * inverse};
 }
 
 /// What multiplies the jump d = {v, Sigma_J}: D^p = shear d + along c, D^J = volume d_3.

@@ -24,7 +24,8 @@ inline double edge_flux_jst_part(const Part& part, const EdgeArrays& edges, cons
       prefetch_row<row::L, ahead::rows>(Outward(), rows.L, edges, e);
       const std::int32_t b = edges.b[e];
       const double C[3] = {edges.C[0][e], edges.C[1][e], edges.C[2][e]};
-      const Vec4 t = low(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
+      Vec4 t = low(average_traction_and_area(PH_a, rows.PH + row::PH * b, C));
+      if (edges.stiffness) t = t + spring_force<Areas::undeformed>(edges, e, rows);
       store4(scratch.edge + 4 * (e - part.edge_begin),
              fma((load4(rows.L + row::L * b) - La) * broadcast4(edge_size(edges, e)), scale, t));
     }

@@ -12,9 +12,10 @@ namespace nanson {
 namespace row {
 inline constexpr std::ptrdiff_t U =
     16;  // {v, J | columns of F, each with a component of x}; pFp: the pressure in place of J
-inline constexpr std::ptrdiff_t H = 12;   // {columns of H, 0}, pFHJ only
-inline constexpr std::ptrdiff_t W = 4;    // {v, Sigma_J}: what is reconstructed and swept
-inline constexpr std::ptrdiff_t PH = 24;  // per column I: {P_iI, 0 | H_iI, 0}; current areas: {P_iI, 0 | sigma_iI, 0}
+inline constexpr std::ptrdiff_t H = 12;  // {columns of H, 0}, pFHJ only
+inline constexpr std::ptrdiff_t W = 4;   // {v, Sigma_J}: what is reconstructed and swept
+inline constexpr std::ptrdiff_t PH =
+    24;  // per column I: {P_iI, 0 | H_iI, u_I}; current areas: {P_iI, 0 | sigma_iI, u_I}; displacement u: tet_stiffness only
 inline constexpr std::ptrdiff_t G = 12;   // per direction I: d{v, Sigma_J}/dX_I
 inline constexpr std::ptrdiff_t dP = 12;  // {columns of dP, 0}: what the full flux correction adds to the nodal stress
 inline constexpr std::ptrdiff_t GP = 36;  // per direction K, column I: dP_iI/dX_K, tensor pressure jump only
@@ -48,6 +49,8 @@ struct EdgeArrays {
   const double* c[3] = {};         // [m^2] current area vector from a to b, current areas only
   const double* rho_cp = nullptr;  // [kg/(m^2 s)] impedances, several materials only
   const double* rho_cs = nullptr;
+  const double* rho_cJ = nullptr;
+  const double* stiffness = nullptr;  // [N/m] springs between the nodes, physics.tet_stiffness only
 };
 
 /// |C| [m^2] of an edge, and of eight.
@@ -128,8 +131,10 @@ struct Rows {
   double* plastic_new;    // ... and where a stage that commits leaves it: the same rows
   double* lagged_dG =
       nullptr;  // row::U a node, flux correction only: {columns of dG, 0}, in the rows that the next step's first stage overwrites
-  double* lagged_q = nullptr;  // [Pa] q of Sigma_J an edge, pressure correction only
-  double* dJ = nullptr;        // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
+  double* lagged_q = nullptr;        // [Pa] q of Sigma_J an edge, pressure correction only
+  double* dJ = nullptr;              // [1/s] rate of J by the motion of the dual cell, one a node, current areas only
+  double* detF = nullptr;            // [-] of the new state, one a node, physics.tet_barrier only
+  const double* crushing = nullptr;  // [N] row of 4 {force of crushed tets, 0} a node; none where no tet is crushed
 };
 
 /// Directions in which a node is held, orthonormal, with what prescribes the acceleration along each.
@@ -156,9 +161,9 @@ struct EdgeChoices {
 /// Constants of a scene and of a stage.
 struct Coefficients {
   MaterialConstants material;
-  double rho_cp = 0, rho_cs = 0;  // [kg/(m^2 s)]
-  double theta = 2.0 / 3;         // [-] flux correction
-  bool adjoint = true;            // boundary flux
+  double rho_cp = 0, rho_cs = 0, rho_cJ = 0;  // [kg/(m^2 s)] impedances
+  double theta = 2.0 / 3;                     // [-] flux correction
+  bool adjoint = true;                        // boundary flux
   EdgeChoices edge;
   bool current_areas = false;  // rows of the Cauchy stress in place of H
   bool sweeps_J = false;       // W is {v, J} in place of {v, Sigma_J} (jst)

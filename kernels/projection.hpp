@@ -62,7 +62,9 @@ NANSON_INLINE Tensor<double> tensor_of(const double* columns, int stride) {
 }
 
 NANSON_INLINE Vec4 area(const double* PH, double C0, double C1, double C2) {
-  return fma(load4(PH + 20), broadcast4(C2), fma(load4(PH + 12), broadcast4(C1), load4(PH + 4) * broadcast4(C0)));
+  const Vec4 c = fma(load4(PH + 20), broadcast4(C2),
+                     fma(load4(PH + 12), broadcast4(C1), load4(PH + 4) * broadcast4(C0)));
+  return Vec4{c[0], c[1], c[2], 0.0};  // u stands in lane 3
 }
 
 /// The edge and corner rows: w = beta |c|^2/(|C| rho c_s), c = H_ave C. Seen from either end w is bitwise the same.

@@ -8,6 +8,7 @@
 #include "kernels/part.hpp"
 #include "kernels/parting.hpp"
 #include "kernels/stress_rows.hpp"
+#include "kernels/tet_stiffness.hpp"
 
 namespace nanson {
 
@@ -42,24 +43,24 @@ NANSON_INLINE void add_lagged(Tensor<Vec8>& P, const double* dP) {
   }
 }
 
-/// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_p), or with the paper's
-/// upwinding U''|H N|^2/(rho0 c_p), with |H N| <= |H| (method, section 6). [m/s]
+/// Fastest reference-frame speed of a node: the acoustic one, and that of the J stabilisation where J is evolved, U''|H N|/(rho0 c_J), or with the paper's
+/// upwinding U''|H N|^2/(rho0 c_J), with |H N| <= |H| (method, section 6). [m/s]
 /// The three choices are of the sweep; each is a constant, for a body without the branch, or a bool.
 template <class Own, Formulation formulation, class Current, class Parted, class Commits>
 PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& k, const double* step_length,
                         Current current_areas, Parted parted, Commits commits) {
-  const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cp = 1.0 / k.rho_cp;
+  const double inverse_rho = 1.0 / k.material.rho, inverse_rho_cJ = 1.0 / k.rho_cJ, c_tets = k.material.tet_stiffness;
   Vec8 fastest{}, plastic_work{};
   Mask8 broken{};
   for (int n = part.node_begin; n < part.node_end; n += 8) {
     const double* U = rows.U_new + row::U * n;
-    Vec8 v[3], J, x;
+    Vec8 v[3], x[3], u[3], J, unused;
     Tensor<Vec8> F, H;
     load_transposed(U, row::U, v[0], v[1], v[2], J);
-    for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x);
+    for (int I = 0; I < 3; ++I) load_transposed(U + 4 * (I + 1), row::U, F[0][I], F[1][I], F[2][I], x[I]);
     if constexpr (formulation == Formulation::pFHJ)
       for (int I = 0; I < 3; ++I)
-        load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], x);
+        load_transposed(rows.H_new + row::H * n + 4 * I, row::H, H[0][I], H[1][I], H[2][I], unused);
     Stress<Vec8> s;
     Mask8 sound = Vec8{} == 0.0;
     if constexpr (Own::traits.has_state) {
@@ -79,15 +80,18 @@ PartReport stress_sweep(const Part& part, const Rows& rows, const Coefficients& 
     }
     if constexpr (evolves_J(formulation))
       if (parted) add_parting(s, F, J, k.material.parting);
+    if (c_tets > 0) add_tet_stiffness(s.P, F, c_tets, current_areas);
+    find_displacement(rows, n, x, c_tets > 0, u);
+    if (rows.detF) store8(rows.detF + n, s.detF);
     if (k.leaves_lagged && rows.dP) add_lagged(s.P, rows.dP + row::dP * n);
 
     const Vec8 swept = !k.sweeps_J ? s.Sigma_J : evolves_J(formulation) ? J : s.detF;
     if (current_areas)
-      store_rows(rows, n, v, swept, s.P, cauchy_stress(s.P, F, evolves_J(formulation) ? J : s.detF), k.streams);
-    else store_rows(rows, n, v, swept, s.P, s.H, k.streams);
+      store_rows(rows, n, v, swept, s.P, cauchy_stress(s.P, F, evolves_J(formulation) ? J : s.detF), u, k.streams);
+    else store_rows(rows, n, v, swept, s.P, s.H, u, k.streams);
     Vec8 c = root(s.rho_c2 * inverse_rho);
     if constexpr (evolves_J(formulation) && !Own::traits.is_linear)
-      c = larger(c, s.d2U * inverse_rho_cp * (k.edge.deformed_metric ? root(s.H2) : s.H2));
+      c = larger(c, s.d2U * inverse_rho_cJ * (k.edge.deformed_metric ? root(s.H2) : s.H2));
     const Vec8 rate = c / load8(step_length + n);
     fastest = larger(rate, fastest);
     const Vec8 size = v[0] * v[0] + v[1] * v[1] + v[2] * v[2];
@@ -145,6 +149,7 @@ double strain_energy_part(const Part& part, const Rows& rows, const Coefficients
     }
     if constexpr (evolves_J(formulation))
       if (k.material.parting > 0) density = density + parting_energy(F, J, k.material.parting);
+    if (k.material.tet_stiffness > 0) density = density + tet_stiffness_energy(F, k.material.tet_stiffness);
     load_transposed(rows.X + row::X * n, row::X, X[0], X[1], X[2], inverse_volume);
     total = total + choose(first_lanes(part.node_end - n), density / inverse_volume, Vec8{});
   }

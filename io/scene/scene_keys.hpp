@@ -108,6 +108,13 @@ inline constexpr Key scene_keys[] = {
      "edge: no stabilisation where the jump that it would act on and the plain one disagree in sign"},
     {"physics.parting", of<&PhysicsSpec::parting>, "-",
      "modulus over mu of an energy that ties det F to the carried J; 0: none", {.range = {.from = 0}}},
+    {"physics.tet_stiffness", of<&PhysicsSpec::tet_stiffness>, "-",
+     "modulus over mu (a law that yields: its first yield stress) of an energy of what tets deform beyond the mean of "
+     "their nodes, which keeps them from creeping inside out; 0: none",
+     {.range = {.from = 0, .to = 1}}},
+    {"physics.tet_barrier", of<&PhysicsSpec::tet_barrier>, "-",
+     "modulus over the same of a barrier on the volume of a tet below 0.3 of its nodes' det F; 0: none",
+     {.range = {.from = 0}}},
     {"physics.keep_angular_momentum", of<&PhysicsSpec::keep_angular_momentum>, "",
      "keeps it to round-off (tvd_rk2 only)"},
 

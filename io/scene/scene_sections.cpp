@@ -134,6 +134,8 @@ void read_physics(Table& t, PhysicsSpec& p) {
          p.upwind_metric);  // both words also with linear_elastic: there H = I and they agree
   t.read(key("physics.entropy_fix"), p.entropy_fix);
   t.read(key("physics.parting"), p.parting);
+  t.read(key("physics.tet_stiffness"), p.tet_stiffness);
+  t.read(key("physics.tet_barrier"), p.tet_barrier);
   t.read(key("physics.keep_angular_momentum"), p.keep_angular_momentum);
 }
 

@@ -22,6 +22,9 @@ struct MaterialConstants {
   double zeta = 0, xi = 0;   // [Pa] of the isochoric energy (paper, eq. 14)
   double cp = 0, cs = 0;     // [m/s] undeformed wave speeds (paper, eq. 39)
   double parting = 0;        // [Pa] M of the energy of the parting of det F from J, 0 without
+  double cJ = 0;             // [m/s] of the waves that D^J stabilises: c_p with kappa + M
+  double tet_stiffness = 0;  // [Pa] modulus of the energies of the tets, 0 without
+  double tet_barrier = 0;    // [Pa]
   Hardening hardening;       // of laws that yield
 };
 

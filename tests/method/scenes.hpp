@@ -188,9 +188,11 @@ inline void adopt_state(Simulation& s) {
   r.H_new = s.state.H[0].data();
   r.W_new = s.state.W[s.state.now].data();
   r.PH_new = s.state.PH[s.state.now].data();
+  r.detF = s.state.barrier.detF.data();
   for (std::size_t p = 0; p < s.domain.order.parts.size(); ++p)
     s.state.reports[p] = stress_of_part(s.domain, static_cast<int>(p), r, s.domain.coefficients, scratch_of(s, 0));
   s.state.has_lagged_correction = false;
+  if (!s.state.barrier.parts.empty()) watch_tets(s);
   const Energies e = energies(s);
   const Momenta m = momenta(s);
   s.books.initial_energy = e.kinetic + e.strain;
@@ -240,7 +242,7 @@ inline double dissipated_power(Simulation& s) {
   return power;
 }
 
-/// Rates of the rows W and PH as they stand, with the loads as they stand: dU/dt in rows of U, and the uncorrected gradient G.
+/// Rates of the rows W and PH as they stand, with the loads as they stand: dU/dt in rows of U, and the uncorrected gradient G. Crushed tets add to PH.
 struct Rates {
   Aligned<double> U, G;
 };
@@ -256,6 +258,7 @@ inline Rates rates(Simulation& s) {
   k.dt = 1;
   k.acceleration = s.state.acceleration.data();
   Rows rows = stage_rows(s.domain, u, 0, 0);
+  if (!u.barrier.parts.empty()) rows.crushing = resist_crushing(s, rows);
   find_current_areas(s, rows.U_stage);
   rows.G = out.G.data();
   rows.U_new = out.U.data();

@@ -109,7 +109,8 @@ TEST(Description, InEveryFormulationAFreeBarKeepsMomentumAndGainsNoEnergy) {
 
 TEST(Description, UpdatedMovesJWithTheVolumeOfTheDualCell) {
   Problem problem(with(free_bar(4), Description::updated));
-  Simulation s = problem.start_changed([](Domain& d) { d.coefficients.rho_cp = 1e200; });  // no stabilisation of J
+  Simulation s = problem.start_changed(
+      [](Domain& d) { d.coefficients.rho_cp = d.coefficients.rho_cJ = 1e200; });  // no stabilisation of J
   shake(s);
   const Rates r = rates(s);
   std::vector<double> change(problem.mesh.X.size(), 0.0);  // [m^3/s] of the dual volumes: a quarter of each tet's
@@ -134,7 +135,7 @@ TEST(Description, UpdatedMovesJWithTheVolumeOfTheDualCell) {
 TEST(Description, ATranslationMovesNoJ) {
   for (auto d : current) {
     Problem problem(with(free_bar(3), d));
-    Simulation s = problem.start_changed([](Domain& d) { d.coefficients.rho_cp = 1e200; });
+    Simulation s = problem.start_changed([](Domain& d) { d.coefficients.rho_cp = d.coefficients.rho_cJ = 1e200; });
     shake(s);
     for (int n = 0; n < s.domain.order.nodes; ++n) {
       double* U = U_of(s, n);

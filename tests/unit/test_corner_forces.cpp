@@ -28,7 +28,7 @@ struct Corners {
     for (auto& Ci : C)
       for (double& x : Ci) x = uniform(random, -1, 1);
     for (int i = 0; i < 3; ++i) loads[i] = uniform(random, -1, 1);
-    k.rho_cp = 3;
+    k.rho_cp = k.rho_cJ = 3;
     k.rho_cs = 1;
   }
   /// Force on node 0 through corner g.

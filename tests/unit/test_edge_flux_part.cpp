@@ -101,7 +101,7 @@ struct TwoParts {
       C[i][1] = -C[i][0];
     }
     size = std::sqrt(C[0][0] * C[0][0] + C[1][0] * C[1][0] + C[2][0] * C[2][0]);
-    k.rho_cp = 3;
+    k.rho_cp = k.rho_cJ = 3;
     k.rho_cs = 1.2;
     k.material.cp = 2;
   }

@@ -44,7 +44,7 @@ double normal_speed(const Edge& e) {
 
 template <UpwindMetric metric>
 EdgeCoefficientsOf<double> coefficients(const Edge& e, double speed_p = cp, double speed_s = cs) {
-  return edge_coefficients(e.c.squaredNorm(), e.C.norm(), rho * speed_p, rho * speed_s,
+  return edge_coefficients(e.c.squaredNorm(), e.C.norm(), rho * speed_p, rho * speed_s, rho * speed_p,
                            metric == UpwindMetric::deformed);
 }
 

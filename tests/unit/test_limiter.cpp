@@ -128,7 +128,7 @@ Power power_of(Random& random) {
   c[3] = 0;
   const double cc = dot3(c, c)[0], size = std::sqrt(cc) * std::exp(uniform(random, -1.1, 1.1));
   const Vec4 plain = random_column(random, -1, 1), d = random_column(random, -1, 1);
-  const EdgeCoefficientsOf<double> k = edge_coefficients(cc, size, 3.0, uniform(random, 0, 3.0),
+  const EdgeCoefficientsOf<double> k = edge_coefficients(cc, size, 3.0, uniform(random, 0, 3.0), 3.0,
                                                          metric == UpwindMetric::deformed);
   const auto power = [&](const StabiliserOf<double>& s) {
     const Vec4 D = Vec4{s.shear, s.shear, s.shear, s.volume} * d + s.along * c;
@@ -164,7 +164,7 @@ TEST(EntropyFix, LeavesAnEdgeAloneWhoseReconstructedJumpIsAShareOfThePlainOne) {
     c[3] = 0;
     const double cc = dot3(c, c)[0];
     const Vec4 plain = random_column(random, -1, 1), d = 0.3 * plain;
-    const EdgeCoefficientsOf<double> k = edge_coefficients(cc, std::sqrt(cc), 3.0, 1.0, true);
+    const EdgeCoefficientsOf<double> k = edge_coefficients(cc, std::sqrt(cc), 3.0, 1.0, 3.0, true);
     const StabiliserOf<double> with = one_edge<EntropyFix::edge>(k, plain, d, c, cc),
                                without = one_edge<EntropyFix::none>(k, plain, d, c, cc);
     EXPECT_EQ(with.shear, without.shear);

@@ -90,7 +90,7 @@ TEST(Parting, AddsTheSameToAPlasticLaw) {
     Coefficients k;
     k.material = constants_of(spec);
     k.material.parting = M;
-    k.rho_cp = k.material.rho * k.material.cp;
+    k.rho_cp = k.rho_cJ = k.material.rho * k.material.cp;
     Part part{};
     part.node_end = 8;
     PhysicsSpec physics;

@@ -37,7 +37,7 @@ struct EightNodes {
     m.yield_stress = 1e4;
     m.hardening_modulus = 2e4;
     k.material = constants_of(m);
-    k.rho_cp = m.density * k.material.cp;
+    k.rho_cp = k.rho_cJ = m.density * k.material.cp;
     k.rho_cs = m.density * k.material.cs;
     rows.X = X.data();
     rows.U_new = U.data();

@@ -295,6 +295,25 @@ TEST(Scene, PartingNeedsAJThatItsEnergyCanMove) {
   EXPECT_EQ(read_text(rubber("")).scene.physics.parting, 1.0);
 }
 
+TEST(Scene, EnergiesOfTheTetsNeedTheAdjointBoundaryAndTheBarrierADetF) {
+  const std::string rubber = edited(small_scene, "linear_elastic", "neo_hookean") + "[physics]\n";
+  const std::string why = "needs boundary_flux = \"adjoint\": its forces on the nodes of a tet";
+  expect_error(rubber + "tet_stiffness = 0.1\nboundary_flux = \"paper\"\n",
+               "scene.toml:12:17: physics.tet_stiffness = 0.1: " + why);
+  expect_error(rubber + "tet_barrier = 0.5\nboundary_flux = \"paper\"\n",
+               "scene.toml:12:15: physics.tet_barrier = 0.5: " + why);
+  expect_error(with("[physics]\ntet_barrier = 0.5\n"),
+               "scene.toml:12:15: physics.tet_barrier = 0.5: has no meaning for linear_elastic");
+  expect_error(rubber + "tet_stiffness = 1.1\n", "scene.toml:12:17: physics.tet_stiffness = 1.1: must be at most 1");
+  expect_error(rubber + "tet_barrier = -1\n", "scene.toml:12:15: physics.tet_barrier = -1: must be at least 0");
+  expect_valid(with("[physics]\ntet_stiffness = 0.1\n"));
+  for (const char* lines :
+       {"", "formulation = \"pF\"\n", "formulation = \"pFp\"\n", "stabilisation = \"jst\"\n",
+        "reconstruction = \"limited\"\n", "flux_correction = \"full\"\n", "pressure_jump = \"tensor\"\n",
+        "keep_angular_momentum = true\n", "description = \"pseudo_updated\"\n"})
+    expect_valid(rubber + "tet_stiffness = 0.1\ntet_barrier = 0.5\n" + lines);
+}
+
 TEST(Scene, FluxCorrectionNeedsGradients) {
   expect_error(with("[physics]\nreconstruction = \"constant\"\nflux_correction = \"pressure\"\n"),
                "scene.toml:13:19: physics.flux_correction = \"pressure\": needs reconstruction = \"linear\"");

@@ -33,6 +33,8 @@ TEST(WriteSummary, HasAllKeys) {
                           "upwind_metric",
                           "pressure_jump",
                           "parting",
+                          "tet_stiffness",
+                          "tet_barrier",
                           "integrator",
                           "step",
                           "split",
