@@ -180,7 +180,8 @@ struct OutputSpec {
   double every = 0;        // [s] 0: first and last frame only
   long history_every = 1;  // [steps]
   std::vector<std::string> fields{"displacement", "velocity", "pressure"};
-  int compress = 0;  // gzip level
+  int compress = 0;               // gzip level
+  double checkpoint_every = 600;  // [s] of wall time; 0: at the end and on signals only
   std::vector<ProbeSpec> probes;
 };
 

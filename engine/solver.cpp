@@ -164,7 +164,7 @@ std::string judge_step(Simulation& s, const std::function<std::string()>& asked_
   if (time.max_steps > 0 && s.state.step >= time.max_steps) {
     reason = "time.max_steps reached";
     s.stopped_by = "max_steps";
-  } else if (time.max_wall_s > 0 && s.team.wall_s >= time.max_wall_s) {
+  } else if (time.max_wall_s > 0 && s.team.wall_s - s.team.earlier_wall_s >= time.max_wall_s) {
     reason = "time.max_wall_s reached";
     s.stopped_by = "max_wall_s";
   } else if (asked_to_stop) {
@@ -200,27 +200,56 @@ void advance(Simulation& s) {
   ++u.step;
 }
 
-std::string run(Simulation& s, const Observer& observer, std::string& reason) {
-  const Scene& scene = *s.domain.scene;
+namespace {
+
+/// The row and the frame that the state is due. What a run tells is a matter of its state alone: one that goes on from a checkpoint tells the same.
+void tell_what_is_due(Simulation& s, const Observer& observer) {
+  const OutputSpec& output = s.domain.scene->output;
   State& u = s.state;
-  const auto tell = [&](const auto& what) {
-    if (what) what(s);
-  };
-  const double wall = wall_seconds(), cpu = cpu_seconds();
+  if (u.step % output.history_every == 0 && observer.on_history) observer.on_history(s);
+  if (u.step % output.history_every == 0) u.last_history = u.step;
+  const bool first = u.step == 0, due = first || (output.every > 0 && u.t >= u.next_frame);
+  if (due && observer.on_frame) observer.on_frame(s);
+  if (due) u.last_frame = u.step;
+  if (due && !first) u.next_frame = next_multiple(output.every, u.t);
+}
+
+/// Asked to stop, the last step's projection did not end as it would have: nobody should go on from there.
+bool was_cut_short(const Simulation& s) {
+  return std::ranges::any_of(s.watch.warnings, [](const Warning& w) { return w.cause == "given_up"; });
+}
+
+/// What has not been told of the last state.
+void tell_the_rest(Simulation& s, const Observer& observer) {
+  const State& u = s.state;
+  if (u.last_history < u.step && s.watch.step != u.step) look(s);
+  if (u.last_history < u.step && observer.on_history) observer.on_history(s);
+  if (u.last_frame < u.step && observer.on_frame) observer.on_frame(s);
+}
+
+}  // namespace
+
+std::string run(Simulation& s, const Observer& observer, std::string& reason) {
+  const TimeSpec& time = s.domain.scene->time;
+  State& u = s.state;
+  s.team.earlier_wall_s = s.team.wall_s;
+  const double wall = wall_seconds() - s.team.wall_s, cpu = cpu_seconds() - s.team.cpu_s;
   const auto read_clocks = [&] {
     s.team.wall_s = wall_seconds() - wall;
     s.team.cpu_s = cpu_seconds() - cpu;
   };
   std::string status = "done";
-  look(s);
-  tell(observer.on_history);
-  tell(observer.on_frame);
-  while (status == "done" && u.t < scene.time.end) {
+  if (s.watch.step < 0) look(s);
+  for (;;) {
+    const bool ends = status != "done" || u.t >= time.end;
+    if (status != "breakdown" && !was_cut_short(s) && observer.on_checkpoint) observer.on_checkpoint(s, ends);
+    if (status == "done") tell_what_is_due(s, observer);
+    if (ends) break;
     u.dt = next_step(s);
-    const bool last = u.dt == scene.time.end - u.t;
+    const bool last = u.dt == time.end - u.t;
     if (u.step == 0) u.first_dt = u.dt_min = u.dt_max = u.dt;
     advance(s);
-    if (last) u.t = scene.time.end;
+    if (last) u.t = time.end;
     u.dt_min = std::min(u.dt_min, u.dt);
     u.dt_max = std::max(u.dt_max, u.dt);
     read_clocks();
@@ -228,24 +257,10 @@ std::string run(Simulation& s, const Observer& observer, std::string& reason) {
       status = "breakdown";
       reason = s.breakdown->text;
     } else status = judge_step(s, observer.stop, reason);
-    tell(observer.on_step);
-    if (status == "done" && u.t >= scene.time.end) break;
-    if (status == "done" && u.step % scene.output.history_every == 0) {
-      tell(observer.on_history);
-      u.last_history = u.step;
-    }
-    if (status == "done" && scene.output.every > 0 && u.t >= u.next_frame) {
-      tell(observer.on_frame);
-      u.last_frame = u.step;
-      u.next_frame = next_multiple(scene.output.every, u.t);
-    }
+    if (observer.on_step) observer.on_step(s);
   }
   read_clocks();
-  if (u.last_history < u.step) {
-    if (s.watch.step != u.step) look(s);
-    tell(observer.on_history);
-  }
-  if (u.last_frame < u.step) tell(observer.on_frame);
+  tell_the_rest(s, observer);
   return status;
 }
 

@@ -15,9 +15,11 @@ struct Observer {
   std::function<void(const Simulation&)>
       on_frame;  // every output.every, at the start and at the end; simulation.breakdown marks the broken one
   std::function<std::string()> stop;  // a reason to end after this step, or nothing
+  std::function<void(const Simulation&, bool ends)>
+      on_checkpoint;  // before anything is told about a sound state; `ends`: no step follows
 };
 
-/// Runs to the scene's end. Returns the status: done | breakdown | stopped, with the reason in `reason`.
+/// Runs to the scene's end, from the start or from where a checkpoint was taken. Returns the status: done | breakdown | stopped, with the reason in `reason`.
 std::string run(Simulation& s, const Observer& observer, std::string& reason);
 
 /// One step of size s.state.dt.

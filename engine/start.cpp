@@ -64,16 +64,6 @@ double constrain_start(const Domain& d, State& s) {
   return lost;
 }
 
-void find_stress(Simulation& s) {
-  State& u = s.state;
-  Rows rows = stage_rows(s.domain, u, 0, 0);
-  rows.W_new = u.W[u.now].data();
-  rows.PH_new = u.PH[u.now].data();
-  for_parts(s, [&](int p, Scratch scratch) {
-    u.reports[static_cast<std::size_t>(p)] = stress_of_part(s.domain, p, rows, s.domain.coefficients, scratch);
-  });
-}
-
 void open_books(Simulation& s) {
   const Domain& d = s.domain;
   Books& b = s.books;
@@ -101,6 +91,16 @@ void place_scratch(const Domain& d, Team& team) {
 }
 
 }  // namespace
+
+void find_stress(Simulation& s) {
+  State& u = s.state;
+  Rows rows = stage_rows(s.domain, u, 0, 0);
+  rows.W_new = u.W[u.now].data();
+  rows.PH_new = u.PH[u.now].data();
+  for_parts(s, [&](int p, Scratch scratch) {
+    u.reports[static_cast<std::size_t>(p)] = stress_of_part(s.domain, p, rows, s.domain.coefficients, scratch);
+  });
+}
 
 Team make_team(int threads) {
   Team team;

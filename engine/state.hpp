@@ -44,9 +44,14 @@ struct State {
 /// but not to the last bit, or belongs to a report; `work` is written before it is read.
 enum class Keep { unknown, carried, work };
 
+/// What an array has rows of.
+enum class Per { node, edge, corner, face, constraint };
+
 struct ArrayRole {
   std::string_view name;
-  std::size_t size;  // doubles; 0 where the scene does not carry it
+  std::size_t size;   // doubles; 0 where the scene does not carry it
+  std::size_t width;  // of a row
+  Per of;
   Keep keep;
 };
 
@@ -54,57 +59,58 @@ struct ArrayRole {
 template <class SomeState, class Visit>
 void each_array(const Domain& d, SomeState& u, Visit visit) {
   const PhysicsSpec& p = d.scene->physics;
-  const std::size_t nodes = static_cast<std::size_t>(d.order.rows), edges = d.order.C[0].size(),
-                    corners = d.order.corner_b.size(), constraints = d.boundary.constraints.size();
+  using enum Per;
+  const std::size_t rows[] = {static_cast<std::size_t>(d.order.rows), d.order.C[0].size(), d.order.corner_b.size(),
+                              d.boundary.slot_nodes.size(), d.boundary.constraints.size()};
   const bool projected = p.formulation == Formulation::pFp, linear = p.reconstruction != Reconstruction::constant,
              corrected = p.flux_correction != FluxCorrection::none, current = has_current_areas(p.description);
-  const auto say = [&](std::string_view name, Keep keep, std::size_t size, bool carried, auto& array) {
-    visit(ArrayRole{name, carried ? size : 0, keep}, array);
+  const auto say = [&](std::string_view name, Keep keep, Per of, std::ptrdiff_t doubles, bool carried, auto& array) {
+    const std::size_t width = static_cast<std::size_t>(doubles);
+    visit(ArrayRole{name, carried ? width * rows[static_cast<int>(of)] : 0, width, of, keep}, array);
   };
-  say("U", Keep::unknown, row::U * nodes, true, u.U[0]);
-  say("U_stage", corrected ? Keep::carried : Keep::work, row::U * nodes, true, u.U[1]);
-  say("H", Keep::unknown, row::H * nodes, p.formulation == Formulation::pFHJ, u.H[0]);
-  say("H_stage", Keep::work, row::H * nodes, p.formulation == Formulation::pFHJ, u.H[1]);
+  say("U", Keep::unknown, node, row::U, true, u.U[0]);
+  say("U_stage", corrected ? Keep::carried : Keep::work, node, row::U, true, u.U[1]);
+  say("H", Keep::unknown, node, row::H, p.formulation == Formulation::pFHJ, u.H[0]);
+  say("H_stage", Keep::work, node, row::H, p.formulation == Formulation::pFHJ, u.H[1]);
   for (int k = 0; k < 2; ++k) {
-    say("W", k == u.now ? Keep::carried : Keep::work, row::W * nodes, k == 0 || !projected, u.W[k]);
-    say("PH", k == u.now ? Keep::carried : Keep::work, row::PH * nodes, k == 0 || !projected, u.PH[k]);
+    say("W", k == u.now ? Keep::carried : Keep::work, node, row::W, k == 0 || !projected, u.W[k]);
+    say("PH", k == u.now ? Keep::carried : Keep::work, node, row::PH, k == 0 || !projected, u.PH[k]);
   }
-  say("G", Keep::work, row::G * nodes, linear || projected, u.G);
-  say("dP", Keep::carried, row::dP * nodes, p.flux_correction == FluxCorrection::full, u.dP);
-  say("q", Keep::carried, edges, p.flux_correction == FluxCorrection::pressure, u.q);
-  say("GP", Keep::work, row::GP * nodes, p.pressure_jump == PressureJump::tensor && linear, u.GP);
-  say("L", Keep::work, row::L * nodes,
+  say("G", Keep::work, node, row::G, linear || projected, u.G);
+  say("dP", Keep::carried, node, row::dP, p.flux_correction == FluxCorrection::full, u.dP);
+  say("q", Keep::carried, edge, 1, p.flux_correction == FluxCorrection::pressure, u.q);
+  say("GP", Keep::work, node, row::GP, p.pressure_jump == PressureJump::tensor && linear, u.GP);
+  say("L", Keep::work, node, row::L,
       p.reconstruction == Reconstruction::limited || p.stabilisation == Stabilisation::jst, u.L);
-  say("plastic", Keep::unknown, row::plastic * nodes * static_cast<std::size_t>(d.mixture.state_sets),
-      has_plasticity(*d.scene), u.plastic);
-  say("loads", Keep::work, 4 * d.boundary.slot_nodes.size(), true, u.loads);
-  say("force", Keep::carried, 4 * nodes, has_forces_on_nodes(d), u.force);
-  say("reactions", Keep::work, reaction_row * constraints, true, u.reactions);
-  say("mean_reactions", Keep::carried, reaction_row * constraints, true, u.mean_reactions);
-  say("initial_mismatch", Keep::carried, 9 * nodes, d.scene->monitor.involutions, u.initial_mismatch);
-  say("x", Keep::work, row::x * nodes, current, u.current.x);
-  say("area_map", Keep::work, row::H * nodes, p.description == Description::pseudo_updated, u.current.map);
+  say("plastic", Keep::unknown, node, row::plastic * d.mixture.state_sets, has_plasticity(*d.scene), u.plastic);
+  say("loads", Keep::work, face, 4, true, u.loads);
+  say("force", Keep::carried, node, 4, has_forces_on_nodes(d), u.force);
+  say("reactions", Keep::work, constraint, reaction_row, true, u.reactions);
+  say("mean_reactions", Keep::carried, constraint, reaction_row, true, u.mean_reactions);
+  say("initial_mismatch", Keep::carried, node, 9, d.scene->monitor.involutions, u.initial_mismatch);
+  say("x", Keep::work, node, row::x, current, u.current.x);
+  say("area_map", Keep::work, node, row::H, p.description == Description::pseudo_updated, u.current.map);
   for (int k = 0; k < 3; ++k) {
-    say("c", Keep::work, edges, current, u.current.c[k]);
-    say("c_corner", Keep::work, corners, current, u.current.corner[k]);
+    say("c", Keep::work, edge, 1, current, u.current.c[k]);
+    say("c_corner", Keep::work, corner, 1, current, u.current.corner[k]);
   }
-  say("dJ", Keep::work, nodes, current, u.current.dJ);
-  say("detF", Keep::carried, nodes, p.tet_barrier > 0, u.barrier.detF);
-  say("crushing", Keep::work, 4 * nodes, p.tet_barrier > 0, u.barrier.force);
+  say("dJ", Keep::work, node, 1, current, u.current.dJ);
+  say("detF", Keep::carried, node, 1, p.tet_barrier > 0, u.barrier.detF);
+  say("crushing", Keep::work, node, 4, p.tet_barrier > 0, u.barrier.force);
   auto& q = u.projection;
-  say("projection_E", Keep::work, row::E * edges, projected, q.E);
-  say("projection_B", Keep::work, row::B * corners, projected, q.B);
-  say("projection_H", Keep::work, row::H * nodes, projected, q.H);
-  say("projection_V", Keep::work, row::V * nodes, projected, q.V);
-  say("volume", Keep::carried, nodes, projected, q.volume[0]);
-  say("volume_stage", Keep::work, nodes, projected, q.volume[1]);
-  say("taken", Keep::carried, nodes, projected, q.taken[0]);
-  say("taken_stage", Keep::work, nodes, projected, q.taken[1]);
-  say("fixed", Keep::carried, nodes, projected, q.fixed);
-  say("lag", Keep::carried, nodes, projected, q.lag);
+  say("projection_E", Keep::work, edge, row::E, projected, q.E);
+  say("projection_B", Keep::work, corner, row::B, projected, q.B);
+  say("projection_H", Keep::work, node, row::H, projected, q.H);
+  say("projection_V", Keep::work, node, row::V, projected, q.V);
+  say("volume", Keep::carried, node, 1, projected, q.volume[0]);
+  say("volume_stage", Keep::work, node, 1, projected, q.volume[1]);
+  say("taken", Keep::carried, node, 1, projected, q.taken[0]);
+  say("taken_stage", Keep::work, node, 1, projected, q.taken[1]);
+  say("fixed", Keep::carried, node, 1, projected, q.fixed);
+  say("lag", Keep::carried, node, 1, projected, q.lag);
   for (auto* v : {&q.inverse_diagonal, &q.weight_sum, &q.R, &q.d, &q.Kd})
-    say("projection_solve", Keep::work, nodes, projected, *v);
-  say("removed", Keep::work, 3 * constraints, projected, q.removed);
+    say("projection_solve", Keep::work, node, 1, projected, *v);
+  say("removed", Keep::work, constraint, 3, projected, q.removed);
 }
 
 /// Zero or undeformed everywhere; padding rows are undeformed nodes of unit volume with an infinite step length.

@@ -17,6 +17,7 @@ struct Team {
   std::vector<std::array<double, part_row>> part_rows;  // several a part
   Clock setup, clock;  // of what comes before the time loop (mesh, dual, metis, order, state, initial), of its sweeps
   double wall_s = 0, cpu_s = 0;  // [s] of the time loop
+  double earlier_wall_s = 0;     // [s] of it, before the checkpoint that the run goes on from
 };
 
 }  // namespace nanson

@@ -145,7 +145,7 @@ Seen seen(const Simulation& s) {
 
 void warn(Simulation& s, std::string_view cause, std::string text) {
   const auto same = [&](const Warning& w) { return w.cause == cause; };
-  if (std::ranges::none_of(s.watch.warnings, same)) s.watch.warnings.push_back({cause, std::move(text)});
+  if (std::ranges::none_of(s.watch.warnings, same)) s.watch.warnings.push_back({std::string(cause), std::move(text)});
 }
 
 std::optional<Breakdown> ruin(Simulation& s) {

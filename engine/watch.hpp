@@ -2,7 +2,6 @@
 #pragma once
 #include <limits>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace nanson {
@@ -34,7 +33,7 @@ struct Extremes {
 
 /// What a run should tell its user, once a cause: energy_growth | iteration_limit | inverted_tet | parted | loose_piece | cfl.
 struct Warning {
-  std::string_view cause;
+  std::string cause;
   std::string text;
 };
 

@@ -8,6 +8,7 @@
 
 #include "engine/input_error.hpp"
 #include "io/check.hpp"
+#include "io/info.hpp"
 #include "io/keys.hpp"
 #include "io/new_scene.hpp"
 #include "io/print.hpp"
@@ -74,6 +75,12 @@ int main(int argc, char** argv) {
   run->add_option("--out", out, "folder for the results");
   run->add_flag("--force", options.force, "replace earlier results, which otherwise move to DIR.1, DIR.2, ...");
   run->add_flag("--quiet", options.quiet, "only errors and warnings");
+  std::string restart;
+  run->add_option("--restart", restart,
+                  "go on from the newest checkpoint of the scene's results, or of the folder or file given here")
+      ->expected(0, 1)
+      ->type_name("[DIR]");
+  run->get_option("SCENE")->required(false);  // --restart takes the word after it, which may be the scene
   CLI::App* study = app.add_subcommand("study",
                                        "run all scenes of a study, one after another; goes on where it stopped; "
                                        "results in results/STUDY/ or in --out DIR");
@@ -81,6 +88,8 @@ int main(int argc, char** argv) {
   study->add_option("--out", out, "folder for the results");
   CLI::App* check = common(
       app.add_subcommand("check", "mesh quality, step, memory and estimated time; writes nothing"));
+  CLI::App* info = app.add_subcommand("info", "what a checkpoint holds, and whether it is whole");
+  info->add_option("PATH", scene, "checkpoint, or folder of results")->required();
   CLI::App* keys = app.add_subcommand("keys", "what scenes and studies may say and what runs write");
   nanson::KeysOptions asked;
   keys->add_option("NAME", asked.name, "a section or a key, e.g. boundary, material.density, output; all without it");
@@ -105,6 +114,10 @@ int main(int argc, char** argv) {
     if (keys->parsed()) return told(nanson::print_keys(asked));
     if (new_scene->parsed()) return nanson::write_new_scene(scene);
     if ((study->parsed() ? study : run)->count("--out") > 0) options.out = out;
+    if (scene.empty() && std::filesystem::path(restart).extension() == ".toml") std::swap(scene, restart);
+    if (scene.empty()) return list_errors({"SCENE is required"});
+    if (run->count("--restart") > 0) options.restart = restart;
+    if (info->parsed()) return nanson::print_info(scene);
     if (study->parsed()) {
       const int code = nanson::run_study(scene, options.out, errors);
       return errors.empty() ? code : list_errors(errors);

@@ -41,4 +41,10 @@ inline int write_all(int fd, std::string_view text) {
   return 0;
 }
 
+/// 0 when the disk has all of a file, or the names in a folder; otherwise errno.
+inline int sync_file(const std::filesystem::path& path) {
+  const Descriptor file(path, O_RDONLY);
+  return file && ::fsync(file.get()) == 0 ? 0 : errno;
+}
+
 }  // namespace nanson

@@ -14,6 +14,7 @@
 #include "io/print.hpp"
 #include "io/progress.hpp"
 #include "io/provenance.hpp"
+#include "io/restart.hpp"
 #include "io/results/results_folder.hpp"
 #include "io/results/write_fields.hpp"
 #include "io/results/write_history.hpp"
@@ -77,10 +78,57 @@ void print_start(const RunOptions& options, Simulation& s, const std::vector<Pro
   say(options, fmt::format("results: {}", folder.string()));
 }
 
+struct Results {
+  FieldWriter fields;
+  HistoryWriter history;
+  ResultsPosition position() const {
+    return {std::int64_t(history.size()), std::int64_t(fields.frames()), std::int64_t(fields.bytes())};
+  }
+};
+
 std::vector<Field> fields_of(const Scene& scene) {
   std::vector<Field> fields;
   for (const std::string& name : scene.output.fields) fields.push_back(field_named(name));
   return fields;
+}
+
+Results new_results(const RunOptions& options, ResultsFolder& folder, const Simulation& s,
+                    const std::vector<HistoryColumn>& columns, const Provenance& from) {
+  const std::string earlier = folder.begin(options.force);
+  if (!earlier.empty() && !options.force) print(stderr, "{}\n", earlier);  // with `quiet` too
+  else if (!earlier.empty()) say(options, earlier);
+  const Scene& scene = *s.domain.scene;
+  return {{folder.path(), *s.domain.mesh, fields_of(scene), results_attributes(from, s.team.threads, scene.text),
+           scene.output.compress},
+          {folder.path() / "history.csv", columns}};
+}
+
+/// History and fields of a checkpoint, cut back to it; or new ones where columns or fields are others.
+Results go_on_with_results(const RunOptions& options, ResultsFolder& folder, const Restart& restart,
+                           const Simulation& s, const std::vector<HistoryColumn>& columns, const Provenance& from) {
+  namespace fs = std::filesystem;
+  const Scene& scene = *s.domain.scene;
+  const std::string ended = results_end(restart, columns, scene);
+  for (const std::string& line : restart.lines) print(stderr, "{}\n", line);
+  say(options,
+      fmt::format("goes on from {}: step {}, t = {:.6g} s", restart.from.path.string(), s.state.step, s.state.t));
+  if (!ended.empty()) {
+    print(stderr, "results begin anew at t = {:.6g} s: {}\n", s.state.t, ended);
+    return new_results(options, folder, s, columns, from);
+  }
+  const ResultsPosition& at = restart.from.results;
+  const fs::path history = folder.path() / "history.csv";
+  if (fs::equivalent(restart.results, folder.path())) {
+    fs::remove(folder.path() / "summary.json");  // what it says of an end is over
+    make_newest(restart.from, folder.path());
+  } else {
+    if (const std::string earlier = folder.begin(options.force); !earlier.empty()) print(stderr, "{}\n", earlier);
+    fs::copy_file(restart.results / "history.csv", history);
+  }
+  return {{folder.path(), *s.domain.mesh, fields_of(scene), results_attributes(from, s.team.threads, scene.text),
+           scene.output.compress,
+           EarlierFrames{restart.results / "run.vtkhdf", std::size_t(at.frames), std::size_t(at.fields_bytes)}},
+          {history, columns, std::size_t(at.history_bytes)}};
 }
 
 }  // namespace
@@ -88,23 +136,24 @@ std::vector<Field> fields_of(const Scene& scene) {
 int run_scene(const Loaded& loaded, const RunOptions& options) {
   const Scene& scene = loaded.scene;
   ResultsFolder folder(scene.name, options.out);
+  std::optional<Restart> restart;
+  if (options.restart) restart = find_restart(loaded, options.restart->empty() ? folder.path() : *options.restart);
   Simulation s = make_simulation(scene, loaded.mesh, options.threads);
   s.team.setup.add("mesh", loaded.mesh_s);
+  if (restart) go_on_from(*restart, s);
   const std::vector<Probe> probes = place_probes(scene, loaded.mesh);
-  const std::string earlier = folder.begin(options.force);
-  if (!earlier.empty() && !options.force) print(stderr, "{}\n", earlier);  // with `quiet` too
-  else if (!earlier.empty()) say(options, earlier);
+  const Provenance from = provenance();
+  const std::vector<HistoryColumn> columns = history_columns(s, probes);
+  Results results = restart ? go_on_with_results(options, folder, *restart, s, columns, from)
+                            : new_results(options, folder, s, columns, from);
+  std::size_t warned = s.watch.warnings.size();  // before the checkpoint
   for (const std::string& note : loaded.notes) say(options, note);
   print_start(options, s, probes, folder.path());
+  CheckpointWriter checkpoints(folder.path(), loaded.resolved, from);
 
-  const Provenance from = provenance();
-  FieldWriter fields(folder.path(), loaded.mesh, fields_of(scene), results_attributes(from, s.team.threads, scene.text),
-                     scene.output.compress);
-  const std::vector<HistoryColumn> columns = history_columns(s, probes);
-  HistoryWriter history(folder.path() / "history.csv", columns);
-  Progress progress(0, scene.time.end, options.quiet);
+  Progress progress(s.state.t, scene.time.end, options.quiet);
   catch_stop_signals();
-  std::size_t warned = 0;
+  double checkpoint_at = wall_seconds();
   std::vector<float> buffer;
   Observer observer;
   observer.on_step = [&](const Simulation& now) {
@@ -112,9 +161,9 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
     for (; warned < now.watch.warnings.size(); ++warned)
       progress.message("warning: " + now.watch.warnings[warned].text);
   };
-  observer.on_history = [&](const Simulation& now) { history.row(history_row(now, columns)); };
+  observer.on_history = [&](const Simulation& now) { results.history.row(history_row(now, columns)); };
   observer.on_frame = [&](const Simulation& now) {
-    fields.frame(now.state.t, now.state.step, now.breakdown.has_value(), [&](const Field& f) {
+    results.fields.frame(now.state.t, now.state.step, now.breakdown.has_value(), [&](const Field& f) {
       buffer = field(now, f);
       return std::span<const float>(buffer);
     });
@@ -122,10 +171,23 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   s.state.projection.asked_to_stop = [most_s = scene.time.max_wall_s, start = wall_seconds()] {
     return stop_signal() != 0 || (most_s > 0 && wall_seconds() - start >= most_s);
   };
+  observer.on_checkpoint = [&](const Simulation& now, bool ends) {
+    const bool asked = checkpoint_signal();
+    const double every = scene.output.checkpoint_every, time = wall_seconds();
+    if (!ends && !asked && !(every > 0 && time - checkpoint_at >= every)) return;
+    try {
+      checkpoints.write(now, results.position());
+      if (asked)
+        progress.message(fmt::format("checkpoint of step {}, t = {:.6g} s written", now.state.step, now.state.t));
+    } catch (const std::runtime_error& e) {
+      progress.message(fmt::format("warning: {}", e.what()));
+    }
+    checkpoint_at = wall_seconds();
+  };
   observer.stop = [] { return stop_signal() ? fmt::format("signal {}", stop_signal()) : std::string(); };
   std::string reason;
   const std::string status = run(s, observer, reason);
-  fields.finish();
+  results.fields.finish();
   Summary summary = summarise(s, probes, status, reason);
   summary.peak_bytes = peak_bytes();  // before the bandwidth is measured, which takes 128 MB
   summary.throughput = throughput(s, 0);
@@ -140,6 +202,7 @@ int run_scene(const Loaded& loaded, const RunOptions& options) {
   progress.end();
   for (const std::string& line : closing_lines(summary)) say(options, line);
   say(options, fmt::format("results in {}", folder.path().string()));
+  if (status == "stopped") say(options, "the run goes on from here with --restart");
   return status == "breakdown" ? 3 : stop_signal() ? 128 + stop_signal() : 0;
 }
 

@@ -12,6 +12,8 @@ struct RunOptions {
   std::optional<std::filesystem::path> out;
   bool quiet = false;
   bool force = false;  // replaces earlier results instead of moving them aside
+  std::optional<std::filesystem::path>
+      restart;  // goes on from a checkpoint: in that folder or file, empty: in the results' folder
 };
 
 /// Exit code: 0 done, 3 the solution broke down, 128 + n ended by signal n.

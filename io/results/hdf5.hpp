@@ -102,11 +102,18 @@ inline Handle create_group(hid_t at, const std::string& name, hid_t creation = H
   return {H5Gcreate2(at, name.c_str(), H5P_DEFAULT, creation, H5P_DEFAULT), name};
 }
 
+/// Without the time of its making, so that equal runs write equal files.
+inline Handle dataset_creation(const std::string& what) {
+  Handle list(H5Pcreate(H5P_DATASET_CREATE), what);
+  check(H5Pset_obj_track_times(list, false), what);
+  return list;
+}
+
 /// A dataset of fixed shape, written at once; HDF5 turns values of another type into T piece by piece.
 template <class T, class Value = T>
 void write(hid_t at, const std::string& name, std::type_identity_t<std::span<const Value>> values, const Dims& dims) {
-  const Handle space(H5Screate_simple(int(dims.size()), dims.data(), nullptr), name);
-  Handle data(H5Dcreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), name);
+  const Handle space(H5Screate_simple(int(dims.size()), dims.data(), nullptr), name), plist = dataset_creation(name);
+  Handle data(H5Dcreate2(at, name.c_str(), type<T>(), space, H5P_DEFAULT, plist, H5P_DEFAULT), name);
   check(H5Dwrite(data, type<Value>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
   data.close(name);
 }
@@ -117,7 +124,7 @@ Handle create_growing(hid_t at, const std::string& name, const Dims& row, hsize_
   Dims now{0}, most{H5S_UNLIMITED}, chunk{rows_in_chunk};
   for (auto* dims : {&now, &most, &chunk}) dims->insert(dims->end(), row.begin(), row.end());
   const Handle space(H5Screate_simple(int(now.size()), now.data(), most.data()), name);
-  const Handle plist(H5Pcreate(H5P_DATASET_CREATE), name);
+  const Handle plist = dataset_creation(name);
   check(H5Pset_chunk(plist, int(chunk.size()), chunk.data()), name);
   if (gzip > 0) {
     check(H5Pset_shuffle(plist), name);
@@ -158,7 +165,7 @@ void write_view(hid_t at, const std::string& name, const std::string& source, hs
   const Handle view_space(H5Screate_simple(int(count.size()), count.data(), nullptr), name);
   const Handle source_space(H5Screate_simple(int(count.size()), source_dims.data(), nullptr), name);
   check(H5Sselect_hyperslab(source_space, H5S_SELECT_SET, start.data(), nullptr, count.data(), nullptr), name);
-  const Handle plist(H5Pcreate(H5P_DATASET_CREATE), name);
+  const Handle plist = dataset_creation(name);
   check(H5Pset_virtual(plist, view_space, ".", source.c_str(), source_space), name);
   Handle(H5Dcreate2(at, name.c_str(), type<T>(), view_space, H5P_DEFAULT, plist, H5P_DEFAULT), name).close(name);
 }
@@ -209,9 +216,74 @@ inline void set_strings(hid_t at, const std::string& name, const std::vector<std
   const hsize_t size = values.size();
   const Handle text = string_type(name), space(H5Screate_simple(1, &size, nullptr), name);
   const Handle attribute(H5Acreate2(at, name.c_str(), text, space, H5P_DEFAULT, H5P_DEFAULT), name);
+  if (values.empty()) return;  // there, and without a text
   std::vector<const char*> pointers(values.size());
   std::transform(values.begin(), values.end(), pointers.begin(), [](const std::string& s) { return s.c_str(); });
   check(H5Awrite(attribute, text, pointers.data()), name);
+}
+
+template <class T>
+T get_attribute(hid_t at, const std::string& name) {
+  const Handle attribute(H5Aopen(at, name.c_str(), H5P_DEFAULT), name), space(H5Aget_space(attribute), name);
+  if (check(H5Sget_simple_extent_npoints(space), name) != 1) throw Error(name + " is not one value");
+  T value{};
+  check(H5Aread(attribute, type<T>(), &value), name);
+  return value;
+}
+
+template <class T>
+std::vector<T> get_attributes(hid_t at, const std::string& name) {
+  const Handle attribute(H5Aopen(at, name.c_str(), H5P_DEFAULT), name), space(H5Aget_space(attribute), name);
+  std::vector<T> values(std::size_t(check(H5Sget_simple_extent_npoints(space), name)));
+  check(H5Aread(attribute, type<T>(), values.data()), name);
+  return values;
+}
+
+inline std::vector<std::string> get_strings(hid_t at, const std::string& name) {
+  const Handle text = string_type(name), attribute(H5Aopen(at, name.c_str(), H5P_DEFAULT), name),
+               space(H5Aget_space(attribute), name);
+  std::vector<char*> pointers(std::size_t(check(H5Sget_simple_extent_npoints(space), name)));
+  std::vector<std::string> values;
+  if (pointers.empty()) return values;
+  check(H5Aread(attribute, text, pointers.data()), name);
+  for (const char* pointer : pointers) values.emplace_back(pointer ? pointer : "");
+  check(H5Dvlen_reclaim(text, space, H5P_DEFAULT, pointers.data()), name);
+  return values;
+}
+
+inline std::string get_string(hid_t at, const std::string& name) {
+  const std::vector<std::string> values = get_strings(at, name);
+  if (values.size() != 1) throw Error(name + " is not one text");
+  return values[0];
+}
+
+inline std::vector<std::string> attribute_names(hid_t at) {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5A_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    return 0;
+  };
+  check(H5Aiterate2(at, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "attributes");
+  return names;
+}
+
+inline std::vector<std::string> link_names(hid_t at) {
+  std::vector<std::string> names;
+  const auto collect = [](hid_t, const char* name, const H5L_info_t*, void* out) -> herr_t {
+    static_cast<std::vector<std::string>*>(out)->emplace_back(name);
+    return 0;
+  };
+  check(H5Literate(at, H5_INDEX_NAME, H5_ITER_INC, nullptr, collect, &names), "links");
+  return names;
+}
+
+/// A whole dataset.
+template <class T>
+std::vector<T> read_all(hid_t at, const std::string& name) {
+  const Handle data = open_dataset(at, name), space(H5Dget_space(data), name);
+  std::vector<T> values(std::size_t(check(H5Sget_simple_extent_npoints(space), name)));
+  check(H5Dread(data, type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), name);
+  return values;
 }
 
 }  // namespace nanson::hdf5

@@ -14,7 +14,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// The summary goes first: one that says "done" must not stand beside the files of a run that is still at work.
-constexpr std::array result_files{"summary.json", "history.csv", "run.xdmf", "run.vtkhdf"};
+constexpr std::array result_files{"summary.json", "history.csv",   "run.xdmf",
+                                  "run.vtkhdf",   "checkpoint.h5", "checkpoint.old.h5"};
 
 fs::path folder_of(const std::string& scene, const std::optional<fs::path>& out) {
   if (out) {

@@ -12,6 +12,7 @@
 #include "io/posix_file.hpp"
 #include "io/replace_file.hpp"
 #include "io/results/hdf5.hpp"
+#include "io/results/results_folder.hpp"
 #include "io/results/staged_file.hpp"
 #include "io/results/xdmf.hpp"
 
@@ -113,6 +114,8 @@ constexpr std::array step_rows{"PartOffsets", "PointOffsets", "CellDataOffsets/r
 constexpr std::array step_columns{"CellOffsets", "ConnectivityIdOffsets"};  // of shape [steps, 1]
 constexpr hsize_t steps_in_chunk = 256;
 
+constexpr const char* file_name = "run.vtkhdf";
+
 void create_series(hid_t vtkhdf, const std::vector<Field>& fields, std::size_t nodes, int compress) {
   const Handle data = hdf5::create_group(vtkhdf, "PointData"), steps = hdf5::create_group(vtkhdf, "Steps");
   const Handle offsets = hdf5::create_group(steps, "PointDataOffsets"),
@@ -146,28 +149,105 @@ void append_step(hid_t file, const std::vector<Field>& fields, std::size_t nodes
 
 }  // namespace
 
+std::vector<std::string> fields_in(const std::filesystem::path& path) {
+  hdf5::be_quiet();
+  try {
+    const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening");
+    return hdf5::link_names(hdf5::open_group(file, "/VTKHDF/PointData"));
+  } catch (const hdf5::Error& error) {
+    throw std::runtime_error(fmt::format("{}: cannot be read: {}", path.string(), error.what()));
+  }
+}
+
 FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<Field> fields,
                          const Attributes& attributes, int compress)
-    : path_(folder / "run.vtkhdf"),
+    : path_(folder / file_name),
       fields_(std::move(fields)),
       nodes_(mesh.X.size()),
       tets_(mesh.tets.size()),
       compress_(compress) {
   hdf5::be_quiet();
   try {
-    Handle file = create_file(path_);
-    for (const auto& [name, value] : attributes) hdf5::set_string(file, name, value);
-    {
-      const Handle vtkhdf = hdf5::create_group(file, "VTKHDF");
-      write_mesh(vtkhdf, mesh);
-      create_series(vtkhdf, fields_, nodes_, compress_);
-      create_frames(file);
-    }
-    flush_and_close(file);
+    create(mesh, attributes);
   } catch (const hdf5::Error& error) {
     throw std::runtime_error(fmt::format("{}: could not be created: {}", path_.string(), error.what()));
   }
   replace_file(folder / "run.xdmf", xdmf_file(""));
+}
+
+FieldWriter::FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<Field> fields,
+                         const Attributes& attributes, int compress, const EarlierFrames& earlier)
+    : path_(folder / file_name),
+      fields_(std::move(fields)),
+      nodes_(mesh.X.size()),
+      tets_(mesh.tets.size()),
+      compress_(compress) {
+  hdf5::be_quiet();
+  const std::filesystem::path own = path_;
+  std::error_code error;
+  const bool as_it_was = std::filesystem::equivalent(earlier.file, own, error)
+                         && std::filesystem::file_size(earlier.file, error) == earlier.bytes;
+  try {
+    if (!as_it_was) path_ += ".tmp";
+    take(earlier, !as_it_was, mesh, attributes);
+    if (const int lost = as_it_was ? 0 : sync_file(path_)) throw hdf5::Error(std::strerror(lost));
+    if (!as_it_was && std::rename(path_.c_str(), own.c_str()) != 0) throw hdf5::Error(std::strerror(errno));
+    path_ = own;
+  } catch (const hdf5::Error& e) {
+    if (!as_it_was) std::filesystem::remove(path_, error);
+    throw FolderError(fmt::format("{}: the run cannot go on in it: {}", earlier.file.string(), e.what()));
+  }
+  replace_file(folder / "run.xdmf", xdmf_file(xdmf_frames_));
+  xdmf_count_ = frames_;
+}
+
+void FieldWriter::create(const Mesh& mesh, const Attributes& attributes) {
+  Handle file = create_file(path_);
+  for (const auto& [name, value] : attributes) hdf5::set_string(file, name, value);
+  {
+    const Handle vtkhdf = hdf5::create_group(file, "VTKHDF");
+    write_mesh(vtkhdf, mesh);
+    create_series(vtkhdf, fields_, nodes_, compress_);
+    create_frames(file);
+  }
+  flush_and_close(file);
+}
+
+/// `anew`: everything is written as it was the first time, one frame after another.
+void FieldWriter::take(const EarlierFrames& earlier, bool anew, const Mesh& mesh, Attributes attributes) {
+  const Handle file(H5Fopen(earlier.file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), "opening");
+  const int64_t whole = hdf5::get_attribute<int64_t>(hdf5::open_group(file, "/VTKHDF/Steps"), "NSteps");
+  if (whole < int64_t(earlier.frames)) throw hdf5::Error(fmt::format("it has {} of {} frames", whole, earlier.frames));
+  if (anew) {
+    std::error_code none;
+    std::filesystem::remove(path_, none);  // of an attempt that was killed
+    for (auto& [name, value] : attributes)
+      if (hdf5::has_attribute(file, name)) value = hdf5::get_string(file, name);
+    create(mesh, attributes);
+  }
+  while (frames_ < earlier.frames) {
+    const Handle group = hdf5::open_group(file, fmt::format("/frames/{:06}", frames_));
+    const double t = hdf5::get_attribute<double>(group, "time");
+    const auto step = long(hdf5::get_attribute<int64_t>(group, "step"));
+    std::vector<float> values;
+    if (anew)
+      append(t, step, false, [&](const Field& f) {
+        values = hdf5::read_all<float>(group, std::string(f.name));
+        return std::span<const float>(values);
+      });
+    count_frame(t, false);
+  }
+}
+
+void FieldWriter::count_frame(double t, bool breakdown) {
+  xdmf_frames_ += xdmf_frame({file_name, nodes_, tets_}, fields_, frames_, t, breakdown);
+  ++frames_;
+}
+
+std::size_t FieldWriter::bytes() const {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(path_, error);
+  return error ? 0 : size;
 }
 
 void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get) {
@@ -178,8 +258,7 @@ void FieldWriter::frame(double t, long step, bool breakdown, const GetField& get
         fmt::format("{}: frame {} (t = {} s) could not be written: {}; the frames before it stay readable",
                     path_.string(), frames_, t, error.what()));
   }
-  xdmf_frames_ += xdmf_frame({path_.filename().string(), nodes_, tets_}, fields_, frames_, t, breakdown);
-  ++frames_;
+  count_frame(t, breakdown);
   const bool many = frames_ - xdmf_count_ > frames_ / 8;
   const auto since = Clock::now() - xdmf_written_;
   if (breakdown || many || (since > std::chrono::seconds(1) && since > 20 * xdmf_cost_)) finish();

@@ -21,6 +21,14 @@ namespace nanson {
 
 inline constexpr int most_patience = 200;  // [ms] a frame waits for a reader to let go of the file
 
+/// Names of the fields of a file, sorted. Throws std::runtime_error with the reason where it cannot be read.
+std::vector<std::string> fields_in(const std::filesystem::path& file);
+
+struct EarlierFrames {
+  std::filesystem::path file;
+  std::size_t frames = 0, bytes = 0;  // how many there are to go on from, and the size that the file then had
+};
+
 class FieldWriter {
  public:
   using Attributes = std::vector<std::pair<std::string, std::string>>;
@@ -30,6 +38,12 @@ class FieldWriter {
   /// Creates run.vtkhdf (one that exists is an error) and run.xdmf in a folder that exists. `attributes` go to "/"; `compress` is a gzip level, 0 for none.
   FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<Field> fields,
               const Attributes& attributes, int compress);
+
+  /// Goes on after the first frames of another file of the same mesh and fields, or of this folder's own. To its last byte the file becomes what it was when it had
+  /// these frames: as it is where its size is still the same, otherwise they are written anew. Attributes stay as they are.
+  /// Throws FolderError with the reason; the earlier file then stands as it was.
+  FieldWriter(const std::filesystem::path& folder, const Mesh& mesh, std::vector<Field> fields,
+              const Attributes& attributes, int compress, const EarlierFrames& earlier);
 
   /// Appends a frame; the file is closed again afterwards. Throws std::runtime_error with the reason when it cannot be written: the frames before stay
   /// readable, and the frame can be tried again.
@@ -42,8 +56,12 @@ class FieldWriter {
   FieldWriter& operator=(const FieldWriter&) = delete;
 
   std::size_t frames() const { return frames_; }
+  std::size_t bytes() const;  // of the file
 
  private:
+  void create(const Mesh& mesh, const Attributes& attributes);
+  void take(const EarlierFrames& earlier, bool anew, const Mesh& mesh, Attributes attributes);
+  void count_frame(double t, bool breakdown);
   void append(double t, long step, bool breakdown, const GetField& get);
 
   std::filesystem::path path_;

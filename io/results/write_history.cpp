@@ -10,17 +10,35 @@
 #include <stdexcept>
 
 #include "io/read_csv.hpp"
+#include "io/results/results_folder.hpp"
 
 namespace nanson {
+
+std::string history_header(const std::vector<HistoryColumn>& columns) {
+  std::string line;
+  for (const auto& column : columns) {
+    if (!line.empty()) line += ',';
+    line += csv_text(fmt::format("{} [{}]", column.name, column.unit));
+  }
+  return line += '\n';
+}
+
 HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<HistoryColumn>& columns)
     : path_(std::move(path)), columns_(columns.size()), file_(path_, O_WRONLY | O_CREAT | O_TRUNC) {
   if (!file_)
     throw std::runtime_error(fmt::format("{}: could not be created: {}", path_.string(), std::strerror(errno)));
-  for (const auto& column : columns) {
-    if (!line_.empty()) line_ += ',';
-    line_ += csv_text(fmt::format("{} [{}]", column.name, column.unit));
-  }
-  append(line_ += '\n');
+  append(history_header(columns));
+}
+
+HistoryWriter::HistoryWriter(std::filesystem::path path, const std::vector<HistoryColumn>& columns, std::size_t size)
+    : path_(std::move(path)), columns_(columns.size()), file_(path_, O_WRONLY), size_(size) {
+  struct stat now {};
+  const bool read = file_ && ::fstat(file_.get(), &now) == 0;
+  const bool whole = read && now.st_size >= off_t(size);
+  if (whole && ::ftruncate(file_.get(), off_t(size)) == 0 && ::lseek(file_.get(), 0, SEEK_END) >= 0) return;
+  throw FolderError(
+      fmt::format("{}: the run cannot go on in it: {}", path_.string(),
+                  read && !whole ? fmt::format("it has {} of {} bytes", now.st_size, size) : std::strerror(errno)));
 }
 
 void HistoryWriter::row(std::span<const double> values) {

@@ -11,7 +11,7 @@ std::optional<Loaded> load(const std::filesystem::path& file, const std::vector<
                            std::vector<std::string>& errors) {
   SceneResult read = read_scene(file, settings);
   errors = std::move(read.errors);
-  Loaded out{std::move(read.scene), {}, 0, {}};
+  Loaded out{std::move(read.scene), {}, 0, {}, std::move(read.resolved)};
   if (read.mesh_valid) {
     std::vector<std::string> mesh_errors;
     const double start = wall_seconds();

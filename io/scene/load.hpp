@@ -15,6 +15,7 @@ struct Loaded {
   Mesh mesh;
   double mesh_s = 0;               // [s] to read or make it and to check it
   std::vector<std::string> notes;  // what its file holds besides
+  std::string resolved;            // the scene as read, with --set, as sorted TOML
 };
 
 /// Nothing when something is wrong: all of it then stands in `errors`.

@@ -40,6 +40,7 @@ void read_output(Table& t, OutputSpec& o) {
   std::vector<Word> words;
   if (t.read(key("output.fields"), words) && t.has("fields")) read_fields(t, words, o.fields);
   t.read(key("output.compress"), o.compress);
+  t.read(key("output.checkpoint_every"), o.checkpoint_every);
   t.section(key("output.probes"), [&](Table& probes) {
     probes.each(key("output.probes.NAME"), [&](const std::string& name, Table& p) {
       if (!is_plain(name)) probes.fail(name, "names a column: use letters, digits, - and _ only");

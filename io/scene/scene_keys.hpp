@@ -236,6 +236,8 @@ inline constexpr Key scene_keys[] = {
     {"output.fields", {KeyType::names, &output_field_names, of<&OutputSpec::fields>.initial}, "",
      "nodal fields of a frame"},
     {"output.compress", of<&OutputSpec::compress>, "-", "gzip level of the fields", {.range = {.from = 0, .to = 9}}},
+    {"output.checkpoint_every", of<&OutputSpec::checkpoint_every>, "s",
+     "wall time from one checkpoint to the next; 0: at the end and on signals only", {.range = {.from = 0}}},
     {"output.probes", {KeyType::named_tables}, "",
      "points of the body whose fields are columns NAME_FIELD of history.csv",
      {.example = "{ tip = { at = [0.5, 0.5, 6.0], fields = [\"displacement\"] } }"}},

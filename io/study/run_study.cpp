@@ -13,6 +13,7 @@
 #include "io/print.hpp"
 #include "io/progress.hpp"
 #include "io/replace_file.hpp"
+#include "io/results/checkpoint.hpp"
 #include "io/results/read_summary.hpp"
 #include "io/results/results_folder.hpp"
 #include "io/signals.hpp"
@@ -153,7 +154,10 @@ int make_runs(StudyResults& all, const std::string& program) {
         return stop_signal();
       }
       all.results[i] = assess(run, outcome_in(folder, end.code, end.too_slow, end.wall_s));
-      if (end.code == 0 || end.code == 3 || end.too_slow) write_record(folder, run, end, program, max_wall_s);
+      if (end.code == 0 || end.code == 3 || end.too_slow) {
+        write_record(folder, run, end, program, max_wall_s);
+        for (const char* name : checkpoint_names) fs::remove(folder / name);  // nobody goes on from them
+      }
     }
     print_result(all.results[i]);
     print(stderr, "; {}, ETA {}\n", duration_text(all.results[i].outcome.wall_s), time_left(all, i + 1));

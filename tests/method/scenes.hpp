@@ -130,6 +130,40 @@ inline constexpr std::array formulations{Formulation::pF, Formulation::pFJ, Form
 inline constexpr std::array corrections{FluxCorrection::none, FluxCorrection::pressure, FluxCorrection::full};
 inline constexpr std::array integrators{Integrator::tvd_rk2, Integrator::ssp_rk3};
 
+/// Every row that some physics carries.
+inline std::vector<Scene> scenes_with_all_rows() {
+  std::vector<Scene> all;
+  const auto add = [&](auto change) {
+    Scene scene = loaded_bar(3);
+    scene.monitor.energy = true;
+    change(scene);
+    all.push_back(scene);
+  };
+  for (auto correction : corrections)
+    for (auto integrator : integrators)
+      add([&](Scene& s) {
+        s.physics.flux_correction = correction;
+        s.time.integrator = integrator;
+      });
+  add([](Scene& s) { s.physics.formulation = Formulation::pFHJ; });
+  add([](Scene& s) { s.physics.reconstruction = Reconstruction::limited; });
+  add([](Scene& s) { s.physics.pressure_jump = PressureJump::tensor; });
+  add([](Scene& s) { s.physics.keep_angular_momentum = true; });
+  add([](Scene& s) { s.physics.formulation = Formulation::pFp; });
+  for (auto description : {Description::updated, Description::pseudo_updated})
+    add([&](Scene& s) { s.physics.description = description; });
+  add([](Scene& s) {
+    s.physics.stabilisation = Stabilisation::jst;
+    s.monitor.energy = false;
+  });
+  add([](Scene& s) {
+    s.material.law = Law::hencky_j2;
+    s.material.yield_stress = 1e5;
+    s.material.hardening_modulus = 1e6;
+  });
+  return all;
+}
+
 /// Every flux that is built: formulations x (constant; linear with no, pressure, full correction), and the tensor pressure jump where J is evolved.
 inline std::vector<PhysicsSpec> every_physics() {
   std::vector<PhysicsSpec> all;

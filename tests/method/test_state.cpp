@@ -8,40 +8,6 @@
 namespace nanson::method {
 namespace {
 
-/// Every row that some physics carries.
-std::vector<Scene> scenes_with_all_rows() {
-  std::vector<Scene> all;
-  const auto add = [&](auto change) {
-    Scene scene = loaded_bar(3);
-    scene.monitor.energy = true;
-    change(scene);
-    all.push_back(scene);
-  };
-  for (auto correction : corrections)
-    for (auto integrator : integrators)
-      add([&](Scene& s) {
-        s.physics.flux_correction = correction;
-        s.time.integrator = integrator;
-      });
-  add([](Scene& s) { s.physics.formulation = Formulation::pFHJ; });
-  add([](Scene& s) { s.physics.reconstruction = Reconstruction::limited; });
-  add([](Scene& s) { s.physics.pressure_jump = PressureJump::tensor; });
-  add([](Scene& s) { s.physics.keep_angular_momentum = true; });
-  add([](Scene& s) { s.physics.formulation = Formulation::pFp; });
-  for (auto description : {Description::updated, Description::pseudo_updated})
-    add([&](Scene& s) { s.physics.description = description; });
-  add([](Scene& s) {
-    s.physics.stabilisation = Stabilisation::jst;
-    s.monitor.energy = false;
-  });
-  add([](Scene& s) {
-    s.material.law = Law::hencky_j2;
-    s.material.yield_stress = 1e5;
-    s.material.hardening_modulus = 1e6;
-  });
-  return all;
-}
-
 TEST(State, WorkArraysAreWrittenBeforeTheyAreRead) {
   for (const Scene& scene : scenes_with_all_rows()) {
     const Problem problem(scene);

@@ -6,7 +6,7 @@ from pathlib import Path
 
 root = Path(sys.argv[1])
 floors = ["kernels/", "engine/", "io/", "io/scene/ io/mesh/", "io/results/", "io/study/"]
-verbs = {"io/check", "io/keys", "io/main", "io/new_scene", "io/run"}  # everything else in io/ itself is a tool
+verbs = {"io/check", "io/keys", "io/main", "io/info", "io/new_scene", "io/restart", "io/run"}  # everything else in io/ itself is a tool
 
 
 def floor(path):

@@ -155,7 +155,7 @@ def test_nothing_is_overwritten_without_a_word():
     err = run("--quiet", "--set", "time.end=0.005").stderr
     assert err == "earlier results moved to results/tiny.1\n", err
     assert summary("results/tiny.1") == first and summary("results/tiny")["t_end"] == 0.005
-    assert sorted(os.listdir("results/tiny.1")) == ["history.csv", "run.vtkhdf", "run.xdmf", "summary.json"]
+    assert sorted(os.listdir("results/tiny.1")) == ["checkpoint.h5", "history.csv", "run.vtkhdf", "run.xdmf", "summary.json"]
     assert run("--quiet", "--force").stderr == ""
     assert summary("results/tiny")["t_end"] == 0.01 and not Path("results/tiny.2").exists()
     run("--quiet", "--set", "time.end=-1", code=2)

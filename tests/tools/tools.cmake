@@ -43,6 +43,10 @@ if(NANSON_PYTHON)
            COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/check_pages.py ${CMAKE_CURRENT_SOURCE_DIR} $<TARGET_FILE:nanson>)
   add_test(NAME Program.Faults
            COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/faults_test.py $<TARGET_FILE:nanson>)
+  if(missing EQUAL 0)
+    add_test(NAME Program.Restart
+             COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/tests/tools/restart_test.py $<TARGET_FILE:nanson> ${CMAKE_CURRENT_SOURCE_DIR})
+  endif()
   add_test(NAME Reference.IsWhatTheProgramTells
            COMMAND ${NANSON_PYTHON} ${CMAKE_CURRENT_SOURCE_DIR}/configs/reference.py --check $<TARGET_FILE:nanson>)
   execute_process(COMMAND ${NANSON_PYTHON} -c "import jsonschema, tomllib" RESULT_VARIABLE missing OUTPUT_QUIET ERROR_QUIET)
